@@ -1,0 +1,75 @@
+# Everything starts here: `make book` and `make test` work on a machine that has only python3 and pip.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+UV := .boot/bin/uv
+CODE := $(shell find dualarm_repro data requirements.lock -type f -not -name '*.pyc' 2>/dev/null)
+# One thread per process: results must not depend on how many cores a BLAS finds.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export MKL_NUM_THREADS := 1
+export MPLBACKEND := agg
+# uv reads no pip configuration; take the certificates of the system.
+export UV_SYSTEM_CERTS := 1
+export UV_NATIVE_TLS := 1
+
+.DEFAULT_GOAL := help
+.PHONY: help env book test verify results bench serve lint lock wheel clean
+
+help:  ## list the targets
+	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+env: $(VENV)/.installed  ## create the locked environment in .venv
+
+book: $(VENV)/.installed _build/.code  ## execute every notebook and build _build/html/index.html
+	$(BIN)/python tools/prerun.py
+	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
+	$(BIN)/python tools/check_book.py
+
+test: $(VENV)/.installed  ## run the whole test suite
+	$(BIN)/python -m pytest
+
+verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
+	$(BIN)/dualarm verify
+
+results: $(VENV)/.installed  ## recompute and rewrite the reference results in data/results
+	$(BIN)/dualarm verify --update
+
+bench: $(VENV)/.bench  ## ratios against peers, measured in one run
+	$(BIN)/python benchmarks/run.py
+
+serve:  ## open the built book
+	$(PYTHON) -m webbrowser "file://$(CURDIR)/_build/html/index.html"
+
+lint: $(VENV)/.installed  ## static checks
+	$(BIN)/ruff check .
+
+lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
+	$(UV) pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
+	$(UV) pip compile pyproject.toml --extra bench -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-bench.lock
+
+wheel: $(VENV)/.installed  ## build a wheel that carries the data files
+	$(BIN)/python -m hatchling build -t wheel
+
+clean:  ## remove everything that was built, keep the environment
+	rm -rf _build dist
+
+# The notebook cache knows only the cells: drop it whenever library, data or lock change.
+_build/.code: $(CODE)
+	rm -rf _build/.jupyter_cache && mkdir -p _build && touch $@
+
+$(UV):
+	$(PYTHON) -m pip install -q --disable-pip-version-check --target .boot uv==0.13.9
+
+# Where only pip reaches the registry, pip installs the same hashes.
+$(VENV)/.installed: requirements.lock pyproject.toml | $(UV)
+	test -x $(BIN)/python || $(UV) venv -q --python "$$(command -v $(PYTHON))" $(VENV)
+	$(UV) pip sync -q --python $(BIN)/python --require-hashes requirements.lock \
+	  || { rm -rf $(VENV) && $(PYTHON) -m venv $(VENV) \
+	  && $(BIN)/python -m pip install -q --require-hashes -r requirements.lock; }
+	$(UV) pip install -q --python $(BIN)/python --no-deps --no-build-isolation -e .
+	touch $@
+
+$(VENV)/.bench: $(VENV)/.installed requirements-bench.lock
+	$(UV) pip install -q --python $(BIN)/python --require-hashes -r requirements-bench.lock
+	touch $@

@@ -1,0 +1,1 @@
+"""Executable reproduction of four documents on robot arms that share a workspace."""

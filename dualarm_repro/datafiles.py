@@ -1,0 +1,69 @@
+"""Where the data files are and how YAML is read: from the clone, or from inside an installed wheel."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from .errors import DataFileError
+
+
+@cache
+def data_root() -> Path:
+    """Folder with ``papers/``, ``robots/``, ``scenes/`` and ``results/``."""
+    package = Path(__file__).resolve().parent
+    installed = package / "_data"
+    return installed if installed.is_dir() else package.parent / "data"
+
+
+def data_path(*parts: str) -> Path:
+    """Path of a data file below :func:`data_root`; it need not exist."""
+    return data_root().joinpath(*parts)
+
+
+class _Loader(yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader):
+    """Safe loader that refuses a key given twice, which YAML would let the last one win."""
+
+
+def _mapping(loader: _Loader, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+    seen: set[Any] = set()
+    for key_node, _ in node.value:
+        key = loader.construct_object(key_node, deep=True)
+        if key in seen:
+            raise yaml.constructor.ConstructorError(
+                None, None, f"key {key!r} is given twice", key_node.start_mark
+            )
+        seen.add(key)
+    return yaml.SafeLoader.construct_mapping(loader, node, deep=True)
+
+
+_Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
+
+
+def read_yaml(path: Path) -> dict[str, Any]:
+    """Read a YAML file that holds a mapping.
+
+    Raises
+    ------
+    DataFileError
+        The file is missing, unreadable, not YAML, or its top level is no mapping.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "not UTF-8 text"
+        raise DataFileError(path, "file", reason, "a readable YAML file") from None
+    try:
+        content = yaml.load(text, Loader=_Loader)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else "file"
+        problem = getattr(error, "problem", None) or "not YAML"
+        raise DataFileError(path, place, problem, "well-formed YAML") from None
+    if not isinstance(content, dict):
+        raise DataFileError(path, "top level", type(content).__name__, "a mapping of field: value")
+    return content

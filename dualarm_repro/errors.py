@@ -1,0 +1,49 @@
+"""Exceptions of the package: every message names the source, the field, the value and what was expected."""
+
+from __future__ import annotations
+
+
+class DualArmError(Exception):
+    """Base of all errors a caller may want to catch; the CLI turns it into one line and exit code 2."""
+
+
+class InputError(DualArmError):
+    """A value from outside is wrong.
+
+    Attributes hold the four parts of the message: ``source`` (file or argument), ``field``,
+    ``value`` and ``expected``.
+    """
+
+    def __init__(self, source: object, field: str, value: object, expected: str) -> None:
+        self.source, self.field, self.value, self.expected = source, field, value, expected
+        super().__init__(f"{source}: {field} = {shorten(value)}: expected {expected}")
+
+
+class DataFileError(InputError):
+    """A data file (YAML, URDF, Parquet) is missing, malformed or has a field of the wrong form."""
+
+
+class UnknownNameError(InputError):
+    """A robot, item, method or format of that name does not exist."""
+
+
+class ConfigurationError(InputError):
+    """A joint vector has the wrong shape or holds NaN or infinity."""
+
+
+class OutputError(InputError):
+    """A result cannot be written where it was asked for."""
+
+
+class UnsupportedArmError(DualArmError):
+    """The arm lacks the structure a method needs, e.g. a spherical wrist for closed-form IK."""
+
+
+class LedgerError(DualArmError):
+    """The ledger is incomplete or contradicts itself."""
+
+
+def shorten(value: object, limit: int = 120) -> str:
+    """``repr`` of a value on one line, cut to ``limit`` characters."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -1,0 +1,170 @@
+"""Schema of ``data/papers/<id>.yaml``: one document, its items, assumptions and errata."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError, model_validator
+
+from ..datafiles import read_yaml
+from ..errors import DataFileError
+
+Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
+Key = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$")]
+
+
+def _strings_only(value: Any) -> Any:
+    """Printed values are strings, so that the printed digits are kept; they may be nested."""
+    if isinstance(value, str) and value.strip():
+        return value
+    if isinstance(value, list) and value:
+        return [_strings_only(part) for part in value]
+    if isinstance(value, dict) and value:
+        return {str(key): _strings_only(part) for key, part in value.items()}
+    raise ValueError(f"non-empty strings, or lists or mappings of strings (found {value!r})")
+
+
+Printed = Annotated[Any, BeforeValidator(_strings_only)]
+
+
+class Model(BaseModel):
+    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Kind(StrEnum):
+    """What sort of thing an item is in print."""
+
+    FIGURE = "figure"
+    TABLE = "table"
+    EQUATION = "equation"
+    CLAIM = "claim"
+
+
+class Document(Model):
+    """Bibliographic record; what the source does not print is left out and listed in ``unknown``."""
+
+    id: Key
+    type: Literal["article", "inproceedings", "patent", "misc"]
+    title: Text = Field(description="title in English")
+    title_original: Text | None = None
+    authors: list[Text] = Field(default=[], description="family name, given name")
+    affiliation: Text | None = None
+    journal: Text | None = None
+    year: Text | None = None
+    note: Text | None = None
+    unknown: list[Text] = Field(default=[], description="bibliographic fields the source lacks")
+
+
+class Assumption(Model):
+    """A value the document does not print and the reproduction had to choose."""
+
+    statement: Text
+    value: Any = Field(description="the value used, in the unit given")
+    unit: Text | None = None
+    why: Text
+    evidence: Literal["printed", "public", "inferred", "assumed"]
+    range: tuple[float, float] | None = Field(
+        default=None, description="plausible range of a numeric value"
+    )
+    choices: list[Any] | None = Field(default=None, description="plausible alternatives")
+
+    @model_validator(mode="after")
+    def _value_is_plausible(self) -> Assumption:
+        if self.range is not None:
+            low, high = self.range
+            if not low < high:
+                raise ValueError("range must be [low, high] with low < high")
+            if not isinstance(self.value, int | float) or not low <= self.value <= high:
+                raise ValueError("value must be a number inside range")
+        if self.choices is not None and self.value not in self.choices:
+            raise ValueError("value must be one of choices")
+        return self
+
+
+class Erratum(Model):
+    """Something in print that is wrong, ambiguous or contradicts another place."""
+
+    place: Text
+    problem: Text
+    resolution: Text
+    affects: list[Text] = Field(default=[], description="full item ids, e.g. xue.tab01")
+    no_proof: Text | None = Field(
+        default=None, description="why no machine proof is registered for it"
+    )
+
+
+class Item(Model):
+    """One printed figure, table, equation or claim."""
+
+    kind: Kind
+    place: Text = Field(description="section, paragraph or table where it is printed")
+    title: Text
+    role: Literal["result", "input"] = Field(
+        default="result", description="input: a value the method is fed with, adopted or adapted"
+    )
+    printed: Printed | None = Field(default=None, description="printed values as strings")
+    unit: Text | None = None
+    needs: Text = Field(description="what has to be computed or shown")
+    missing: list[Text] = Field(default=[], description="data it depends on that is not printed")
+    assumptions: list[Key] = Field(default=[], description="ids of assumptions it rests on")
+    notes: Text | None = None
+    pending: Text | None = Field(
+        default=None, description="declared reason why no checker is registered yet"
+    )
+
+
+class PaperFile(Model):
+    """Content of one file in ``data/papers``."""
+
+    document: Document
+    assumptions: dict[Key, Assumption] = {}
+    errata: dict[Key, Erratum] = {}
+    items: dict[Key, Item]
+
+    @model_validator(mode="after")
+    def _references_exist(self) -> PaperFile:
+        for key, item in self.items.items():
+            for name in item.assumptions:
+                if name not in self.assumptions:
+                    raise ValueError(f"items.{key}.assumptions: no assumption named {name!r}")
+        known = {f"{self.document.id}.{key}" for key in self.items}
+        for key, erratum in self.errata.items():
+            for name in erratum.affects:
+                if name not in known:
+                    raise ValueError(f"errata.{key}.affects: no item named {name!r}")
+        return self
+
+
+def load_paper(path: Path) -> PaperFile:
+    """Read and check one paper file.
+
+    Raises
+    ------
+    DataFileError
+        With the first offending field, its value and what was expected.
+    """
+    content = read_yaml(path)
+    try:
+        return PaperFile.model_validate(content)
+    except ValidationError as error:
+        raise from_validation(path, error) from None
+
+
+def from_validation(path: Path, error: ValidationError) -> DataFileError:
+    """The first problem pydantic found, as an error that names file, field, value and expectation."""
+    first = error.errors()[0]
+    field = ".".join(str(part) for part in first["loc"]) or "file"
+    expected = first["msg"].removeprefix("Value error, ")
+    value = "nothing" if first["type"] == "missing" else first["input"]
+    if isinstance(value, dict):
+        value = f"mapping with {', '.join(map(str, value))}"
+    return DataFileError(path, field, value, expected[0].lower() + expected[1:])
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a paper file, for editors and other tools."""
+    return PaperFile.model_json_schema()
