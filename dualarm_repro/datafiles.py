@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from pydantic import ValidationError
 
 from .errors import DataFileError
 
@@ -67,3 +68,14 @@ def read_yaml(path: Path) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise DataFileError(path, "top level", type(content).__name__, "a mapping of field: value")
     return content
+
+
+def from_validation(source: object, error: ValidationError) -> DataFileError:
+    """The first problem pydantic found, as an error that names file, field, value and expectation."""
+    first = error.errors()[0]
+    field = ".".join(str(part) for part in first["loc"]) or "file"
+    expected = first["msg"].removeprefix("Value error, ")
+    value = "nothing" if first["type"] == "missing" else first["input"]
+    if isinstance(value, dict):
+        value = f"mapping with {', '.join(map(str, value))}"
+    return DataFileError(source, field, value, expected[0].lower() + expected[1:])

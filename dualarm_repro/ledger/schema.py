@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError, model_validator
 
-from ..datafiles import read_yaml
-from ..errors import DataFileError
+from ..datafiles import from_validation, read_yaml
 
 Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
 Key = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$")]
@@ -152,17 +151,6 @@ def load_paper(path: Path) -> PaperFile:
         return PaperFile.model_validate(content)
     except ValidationError as error:
         raise from_validation(path, error) from None
-
-
-def from_validation(path: Path, error: ValidationError) -> DataFileError:
-    """The first problem pydantic found, as an error that names file, field, value and expectation."""
-    first = error.errors()[0]
-    field = ".".join(str(part) for part in first["loc"]) or "file"
-    expected = first["msg"].removeprefix("Value error, ")
-    value = "nothing" if first["type"] == "missing" else first["input"]
-    if isinstance(value, dict):
-        value = f"mapping with {', '.join(map(str, value))}"
-    return DataFileError(path, field, value, expected[0].lower() + expected[1:])
 
 
 def json_schema() -> dict[str, Any]:

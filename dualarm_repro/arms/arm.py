@@ -1,0 +1,222 @@
+"""One arm: its Pinocchio model, its capsules and its kinematics for one or many configurations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+import pinocchio as pin
+import sympy as sp
+from numpy.typing import ArrayLike
+
+from ..errors import ConfigurationError, UnsupportedArmError
+from . import dh, kernels
+from .capsules import capsule_geometry
+from .chain import chain_of
+from .dh_model import FLANGE, build_model
+from .robot_file import DHRobot
+
+
+class Arm:
+    """A serial arm of revolute joints.
+
+    Attributes
+    ----------
+    name, title : str
+    model : pinocchio.Model
+        Reduced to the joints between base and flange; nq = nv.
+    chain : Chain
+        The constant transforms of the batch kernels.
+    nq : int
+    lower, upper, velocity_limit : ndarray (nq,)
+        Joint limits [rad], speed limits [rad/s].
+    """
+
+    def __init__(
+        self,
+        name: str,
+        title: str,
+        model: pin.Model,
+        flange: str,
+        geometry: Callable[[], pin.GeometryModel],
+        robot: DHRobot | None = None,
+    ) -> None:
+        self.name, self.title, self.model = name, title, model
+        self._flange = model.getFrameId(flange)
+        self._build_geometry, self._robot = geometry, robot
+        self._data = model.createData()
+        self.chain = chain_of(name, model, self._flange)
+        self.nq = model.nq
+        self.lower = model.lowerPositionLimit.copy()
+        self.upper = model.upperPositionLimit.copy()
+        self.velocity_limit = model.velocityLimit.copy()
+
+    @classmethod
+    def from_dh(cls, name: str, robot: DHRobot) -> Arm:
+        """Arm of a DH table."""
+        return cls(
+            name,
+            robot.title,
+            build_model(robot, name),
+            FLANGE,
+            lambda: capsule_geometry(robot.capsules),
+            robot,
+        )
+
+    def __repr__(self) -> str:
+        return f"<Arm {self.name}: {self.nq} joints, {self.title}>"
+
+    @cached_property
+    def geometry(self) -> pin.GeometryModel:
+        """Capsules of the links (coal), in the frames of the joints, without collision pairs."""
+        return self._build_geometry()
+
+    @property
+    def flange_id(self) -> int:
+        """Index of the flange frame in ``model.frames``."""
+        return self._flange
+
+    def fk(self, q: ArrayLike) -> np.ndarray:
+        """Pose T(q) of the flange in the base frame.
+
+        Parameters
+        ----------
+        q : (nq,) or (N, nq) [rad]
+
+        Returns
+        -------
+        ndarray (4, 4) or (N, 4, 4)
+            Translation in metres.
+
+        Raises
+        ------
+        ConfigurationError
+            Wrong shape, NaN or infinity.
+        """
+        q = self.configurations(q)
+        if q.ndim == 2:
+            return kernels.poses(self.chain, q)
+        pin.forwardKinematics(self.model, self._data, q)
+        return pin.updateFramePlacement(self.model, self._data, self._flange).homogeneous
+
+    def positions(self, q: ArrayLike) -> np.ndarray:
+        """Flange position p(q) in the base frame [m], (nq,) -> (3,) or (N, nq) -> (N, 3)."""
+        return self._batch(kernels.positions, self.configurations(q))
+
+    def joint_positions(self, q: ArrayLike) -> np.ndarray:
+        """Origins of the joint frames 1 ... nq and of the flange in the base frame [m].
+
+        The frame of a joint is the one its variable turns: link frame i of a modified DH table, link
+        frame i-1 of a standard one.
+
+        Returns
+        -------
+        ndarray (nq + 1, 3) or (N, nq + 1, 3)
+        """
+        return self._batch(kernels.frame_origins, self.configurations(q))
+
+    def jacobian(self, q: ArrayLike) -> np.ndarray:
+        """Geometric Jacobian [v; omega] = J(q) dq at the flange origin, axes of the base.
+
+        Returns
+        -------
+        ndarray (6, nv) or (N, 6, nv)
+            Rows 0-2 in metres per radian, rows 3-5 without unit.
+
+        Raises
+        ------
+        ConfigurationError
+            Wrong shape, NaN or infinity.
+        """
+        q = self.configurations(q)
+        if q.ndim == 2:
+            return kernels.jacobians(self.chain, q)
+        frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        return pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
+
+    def manipulability(self, q: ArrayLike) -> float | np.ndarray:
+        """Yoshikawa's measure w(q) = sqrt(det(J J^T)).
+
+        T. Yoshikawa, Manipulability of robotic mechanisms, IJRR 4(2), 1985. In m^3 for six joints.
+
+        Returns
+        -------
+        float or ndarray (N,)
+        """
+        q = self.configurations(q)
+        if q.ndim == 2:
+            return kernels.manipulabilities(self.chain, q)
+        return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
+
+    def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
+        """Whether lower - tolerance <= q <= upper + tolerance [rad], bool or (N,) of bool."""
+        q = self.configurations(q)
+        inside = (q >= self.lower - tolerance) & (q <= self.upper + tolerance)
+        return bool(inside.all()) if q.ndim == 1 else inside.all(axis=1)
+
+    def random_configurations(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        """``n`` configurations, uniform within the limits, (n, nq) [rad]."""
+        q = rng.random((n, self.nq))
+        q *= self.upper - self.lower
+        q += self.lower
+        return q
+
+    def symbolic_fk(self) -> sp.Matrix:
+        """T(q) of a DH arm as a sympy Matrix (4, 4) in q_1 ... q_n, exact.
+
+        Raises
+        ------
+        UnsupportedArmError
+            The arm is not given by a DH table.
+        """
+        return dh.forward_kinematics(self._dh_robot("symbolic forward kinematics"))
+
+    def link_transforms(self) -> list[sp.Matrix]:
+        """The link transforms of a DH arm in table order, exact; their product is T(q).
+
+        Raises
+        ------
+        UnsupportedArmError
+            The arm is not given by a DH table.
+        """
+        return dh.link_transforms(self._dh_robot("symbolic link transforms"))
+
+    def mirrored(self, name: str | None = None) -> Arm:
+        """The reflection M T(q) M at -q, M = diag(1, -1, 1, 1), of a DH arm.
+
+        Raises
+        ------
+        UnsupportedArmError
+            The arm is not given by a DH table.
+        """
+        robot = self._dh_robot("the mirror image").mirrored()
+        return Arm.from_dh(name or f"{self.name}-mirrored", robot)
+
+    def configurations(self, q: ArrayLike) -> np.ndarray:
+        """``q`` as a float64 array (nq,) or (N, nq).
+
+        Raises
+        ------
+        ConfigurationError
+            Wrong shape, NaN or infinity.
+        """
+        expected = f"{self.nq} finite numbers [rad], or rows of {self.nq}"
+        try:
+            array = np.asarray(q, dtype=float)
+        except (TypeError, ValueError):
+            raise ConfigurationError(f"arm {self.name}", "q", q, expected) from None
+        if array.ndim not in (1, 2) or array.shape[-1] != self.nq:
+            raise ConfigurationError(f"arm {self.name}", "shape of q", array.shape, expected)
+        if not np.isfinite(array).all():
+            wrong = array[~np.isfinite(array)][0]
+            raise ConfigurationError(f"arm {self.name}", "q", float(wrong), expected)
+        return array
+
+    def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
+        return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]
+
+    def _dh_robot(self, wanted: str) -> DHRobot:
+        if self._robot is None:
+            raise UnsupportedArmError(f"arm {self.name}: {wanted} needs an arm given by a DH table")
+        return self._robot

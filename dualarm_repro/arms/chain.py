@@ -1,0 +1,43 @@
+"""Constant transforms of a Pinocchio model, for the batch kernels."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from ..errors import UnsupportedArmError
+from .kernels import Chain
+
+_Z = np.array([0.0, 0.0, 1.0])
+
+
+def chain_of(name: str, model: pin.Model, flange: int) -> Chain:
+    """T(q) = C_0 Rz(q_1) C_1 ... Rz(q_n) C_n of the chain from the base to the flange.
+
+    The frame of each joint is turned so that its axis is z; its origin stays.
+
+    Raises
+    ------
+    UnsupportedArmError
+        The model is no serial chain of revolute joints, or the flange is not on its last link.
+    """
+    n = model.njoints - 1
+    serial = list(model.parents)[1:] == list(range(n))
+    if not serial or model.nq != n or model.nv != n or model.frames[flange].parentJoint != n:
+        raise UnsupportedArmError(f"arm {name}: not a serial chain of revolute joints to the flange")
+    data = model.createData()
+    pin.computeJointJacobians(model, data, pin.neutral(model))
+    constants = []
+    turn = np.eye(3)
+    for joint in range(1, n + 1):
+        column = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)[:, joint - 1]
+        if np.any(column[:3]) or not np.isclose(np.linalg.norm(column[3:]), 1.0):
+            raise UnsupportedArmError(f"arm {name}: joint {model.names[joint]} is not revolute")
+        placement = model.jointPlacements[joint]
+        following = pin.Quaternion.FromTwoVectors(_Z, column[3:]).matrix()
+        constants.append((turn.T @ placement.rotation @ following, turn.T @ placement.translation))
+        turn = following
+    placement = model.frames[flange].placement
+    constants.append((turn.T @ placement.rotation, turn.T @ placement.translation))
+    rotation, translation = zip(*constants, strict=True)
+    return Chain(np.array(rotation), np.array(translation))

@@ -1,0 +1,234 @@
+"""Schema of ``data/robots/<name>.yaml``: an arm as DH table, as URDF, or as another arm's mirror image.
+
+Lengths are numbers [m]. Angles are exact: a number [rad], ``"76 deg"`` or a multiple of pi such as
+``"-pi/2"``; speeds are angles per second. Every number carries a key of ``sources`` and an evidence
+tag: ``printed`` in the reproduced document, ``public`` in an opened source, ``inferred`` by
+computation, ``assumed``, or ``stand-in`` for data of a similar robot.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    StringConstraints,
+    TypeAdapter,
+    ValidationError,
+    model_validator,
+)
+
+from ..datafiles import from_validation, read_yaml
+from .angle import EXPECTED, Angle
+
+Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
+Length = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+ExactAngle = Annotated[
+    Any,
+    BeforeValidator(Angle.parse),
+    PlainSerializer(float),
+    Field(description=EXPECTED, json_schema_extra={"type": ["number", "string"]}),
+]
+Point = tuple[Length, Length, Length]
+Evidence = Literal["printed", "public", "inferred", "assumed", "stand-in"]
+COLUMNS = ("alpha", "a", "d", "offset", "lower", "upper", "velocity")
+
+
+class _Model(BaseModel):
+    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Origin(_Model):
+    """Where a number comes from."""
+
+    source: Text = Field(description="key of sources")
+    evidence: Evidence
+    note: Text | None = None
+
+
+class ColumnOrigin(Origin):
+    """Where a column of the DH table comes from, with exceptions for single joints."""
+
+    joints: dict[int, Origin] = Field(default={}, description="joint number (from 1): its own origin")
+
+
+class Joint(_Model):
+    """One row of a DH table and the limits of its joint."""
+
+    name: Text
+    alpha: ExactAngle
+    a: Length
+    d: Length
+    offset: ExactAngle = Field(description="theta = q + offset")
+    lower: ExactAngle
+    upper: ExactAngle
+    velocity: ExactAngle = Field(description="largest joint speed, per second")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Joint:
+        if not float(self.lower) < float(self.upper):
+            raise ValueError("lower below upper")
+        if not float(self.velocity) > 0:
+            raise ValueError("a positive velocity")
+        return self
+
+
+class Flange(_Model):
+    """Fixed transform from the last DH frame to the flange, R = Rz(yaw) Ry(pitch) Rx(roll)."""
+
+    translation: Point
+    rpy: tuple[ExactAngle, ExactAngle, ExactAngle]
+    source: Text
+    evidence: Evidence
+
+
+class Capsule(Origin):
+    """A segment with a radius, fixed to the frame of a joint (0: the base)."""
+
+    joint: int = Field(ge=0)
+    start: Point
+    end: Point
+    radius: float = Field(strict=True, gt=0, allow_inf_nan=False)
+
+
+class _Robot(_Model):
+    """What every robot file says."""
+
+    title: Text
+    evidence: Text = Field(description="summary of how firmly the data are known")
+    notes: list[Text] = []
+    sources: dict[Text, Text] = Field(min_length=1, description="key: bibliographic text")
+
+    def _check_sources(self, origins: list[Origin | Flange]) -> None:
+        for origin in origins:
+            if origin.source not in self.sources:
+                raise ValueError(f"sources to hold {origin.source!r}, which an entry refers to")
+
+
+class DHRobot(_Robot):
+    """A serial arm of revolute joints given by its DH table."""
+
+    kind: Literal["dh"]
+    convention: Literal["modified", "standard"]
+    joints: list[Joint] = Field(min_length=1)
+    flange: Flange | None = None
+    provenance: dict[Literal[COLUMNS], ColumnOrigin]
+    capsules: list[Capsule] = []
+
+    @model_validator(mode="after")
+    def _complete(self) -> DHRobot:
+        if missing := [column for column in COLUMNS if column not in self.provenance]:
+            raise ValueError(f"provenance of the columns {', '.join(missing)}")
+        n = len(self.joints)
+        if len({joint.name for joint in self.joints}) < n:
+            raise ValueError("joint names that differ")
+        for column, origin in self.provenance.items():
+            if wrong := [k for k in origin.joints if not 1 <= k <= n]:
+                raise ValueError(f"provenance.{column}.joints among 1..{n}, not {wrong[0]}")
+        if wrong := [c.joint for c in self.capsules if c.joint > n]:
+            raise ValueError(f"capsules.joint among 0..{n}, not {wrong[0]}")
+        exceptions = [o for origin in self.provenance.values() for o in origin.joints.values()]
+        flange = [self.flange] if self.flange else []
+        self._check_sources([*self.provenance.values(), *exceptions, *self.capsules, *flange])
+        return self
+
+    def mirrored(self) -> DHRobot:
+        """Reflection in the xz plane of the base: alpha, theta and the y of points change sign.
+
+        With M = diag(1, -1, 1, 1) the mirror image at -q has the pose M T(q) M; the limits are
+        therefore negated and swapped.
+        """
+
+        def flip(point: Point) -> Point:
+            return (point[0], -point[1], point[2])
+
+        joints = [
+            joint.model_copy(
+                update={
+                    "alpha": -joint.alpha,
+                    "offset": -joint.offset,
+                    "lower": -joint.upper,
+                    "upper": -joint.lower,
+                }
+            )
+            for joint in self.joints
+        ]
+        capsules = [
+            c.model_copy(update={"start": flip(c.start), "end": flip(c.end)}) for c in self.capsules
+        ]
+        flange = self.flange and self.flange.model_copy(
+            update={
+                "translation": flip(self.flange.translation),
+                "rpy": (-self.flange.rpy[0], self.flange.rpy[1], -self.flange.rpy[2]),
+            }
+        )
+        return self.model_copy(
+            update={
+                "title": f"{self.title}, mirror image",
+                "joints": joints,
+                "capsules": capsules,
+                "flange": flange,
+            }
+        )
+
+
+class URDFRobot(_Robot):
+    """An arm taken from a URDF file of example-robot-data."""
+
+    kind: Literal["urdf"]
+    urdf: Text = Field(description="path below the folder robots of example-robot-data")
+    flange: Text = Field(description="name of the frame used as flange")
+    lock: dict[Text, ExactAngle] = Field(default={}, description="joint: angle it is fixed at")
+    collision: Text | None = Field(
+        default=None, description="URDF of the same arm whose collision shapes are used instead"
+    )
+    provenance: dict[Literal["model", "limits", "capsules"], Origin]
+
+    @model_validator(mode="after")
+    def _complete(self) -> URDFRobot:
+        self._check_sources(list(self.provenance.values()))
+        return self
+
+
+class MirrorRobot(_Robot):
+    """The mirror image of another DH arm in the xz plane of its base."""
+
+    kind: Literal["mirror"]
+    of: Text = Field(description="name of the arm that is mirrored")
+    provenance: dict[Literal["mirror"], Origin]
+
+    @model_validator(mode="after")
+    def _complete(self) -> MirrorRobot:
+        self._check_sources(list(self.provenance.values()))
+        return self
+
+
+RobotFile = DHRobot | URDFRobot | MirrorRobot
+_ADAPTER: TypeAdapter[RobotFile] = TypeAdapter(Annotated[RobotFile, Field(discriminator="kind")])
+
+
+def load_robot_file(path: Path) -> RobotFile:
+    """Read and check one robot file.
+
+    Raises
+    ------
+    DataFileError
+        With the first offending field, its value and what was expected.
+    """
+    content = read_yaml(path)
+    try:
+        return _ADAPTER.validate_python(content)
+    except ValidationError as error:
+        raise from_validation(path, error) from None
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a robot file, for editors and other tools."""
+    return _ADAPTER.json_schema()

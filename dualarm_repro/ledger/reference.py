@@ -1,0 +1,102 @@
+"""Reference results in ``data/results``: written by one command, compared at every `verify`."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from ..datafiles import data_path
+from ..errors import DataFileError
+from .evaluation import evaluate, prove
+from .files import to_json, write_text
+from .fingerprint import versions
+from .printed import leaves
+from .registry import Registry
+from .verdict import Verdict
+
+RELATIVE = 1e-6
+ABSOLUTE = 1e-9
+
+
+def reference_path(paper: str) -> Path:
+    """File with the reference results of one document."""
+    return data_path("results", f"{paper}.json")
+
+
+def read_reference(paper: str) -> dict[str, Any]:
+    """Reference results of a document; empty if none have been written.
+
+    Raises
+    ------
+    DataFileError
+        The file is there but is no JSON.
+    """
+    path = reference_path(paper)
+    if not path.is_file():
+        return {}
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))["items"]
+    except (ValueError, KeyError) as error:
+        raise DataFileError(path, "file", str(error), "reference results as JSON") from None
+
+
+def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
+    """What is compared: verdict, obtained values and the proofs of the errata, as plain JSON."""
+    evaluation = evaluate(registry, item_id)
+    proofs = {key: prove(registry, key) for key in registry.errata_of(item_id)}
+    found = {
+        "verdict": str(evaluation.verdict),
+        "obtained": evaluation.result.obtained if evaluation.result else None,
+        "proofs": {key: proof.holds for key, proof in proofs.items() if proof},
+    }
+    return json.loads(to_json(found))
+
+
+def differences(expected: Any, found: Any) -> list[str]:
+    """Where two outcomes differ: numbers beyond 1e-6 relative, anything else at all."""
+    left, right = dict(leaves(expected)), dict(leaves(found))
+    lines = []
+    for path in sorted(left.keys() | right.keys(), key=str):
+        a, b = left.get(path, "absent"), right.get(path, "absent")
+        if not _same(a, b):
+            lines.append(f"{'.'.join(map(str, path))}: reference {a!r}, found {b!r}")
+    return lines
+
+
+def verify(registry: Registry, item_ids: Iterable[str], *, update: bool = False) -> dict[str, Any]:
+    """Recompute items from nothing and compare them with the reference.
+
+    Returns
+    -------
+    dict
+        ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``) and ``verdicts``
+        (count per verdict). With ``update`` the reference is rewritten instead.
+    """
+    found = {item_id: outcome(registry, item_id) for item_id in item_ids}
+    papers = {item_id.partition(".")[0] for item_id in found}
+    reference = {key: value for paper in papers for key, value in read_reference(paper).items()}
+    if update:
+        for paper in sorted(papers):
+            kept = {**read_reference(paper), **found}
+            items = {i: kept[i] for i in registry.items if i in kept and i.startswith(f"{paper}.")}
+            content = {"versions": versions(), "items": items}
+            write_text(reference_path(paper), to_json(content))
+    drifted = [
+        {"id": item_id, "differences": lines}
+        for item_id, made in found.items()
+        if not update and (lines := differences(reference.get(item_id), made))
+    ]
+    counts = Counter(made["verdict"] for made in found.values())
+    verdicts = {str(v): counts[v] for v in Verdict if counts[v]}
+    return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
+
+
+def _same(a: Any, b: Any) -> bool:
+    numbers = all(isinstance(x, int | float) and not isinstance(x, bool) for x in (a, b))
+    if numbers and (isinstance(a, float) or isinstance(b, float)):
+        return math.isclose(a, b, rel_tol=RELATIVE, abs_tol=ABSOLUTE)
+    return type(a) is type(b) and a == b

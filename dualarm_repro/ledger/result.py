@@ -1,0 +1,71 @@
+"""What a computation hands to the ledger."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import pandas as pd
+
+
+@dataclass(frozen=True)
+class Result:
+    """Outcome of one item.
+
+    Attributes
+    ----------
+    obtained
+        Numbers, texts, lists and mappings that the rules judge and that ``verify`` compares.
+    measured
+        Values that depend on the machine (times); shown, never compared.
+    table
+        The data behind the figure or table, exported as CSV.
+    caption
+        States the finding, with the obtained numbers in it.
+    alt
+        Text for a reader who cannot see the figure.
+    figure, scene
+        Draw the figure (a matplotlib figure) or the 3-D scene (an object with ``html()``); called
+        only when somebody looks.
+    """
+
+    obtained: dict[str, Any]
+    caption: str
+    measured: dict[str, Any] = field(default_factory=dict)
+    table: pd.DataFrame | None = None
+    alt: str | None = None
+    figure: Callable[[], Any] | None = None
+    scene: Callable[[], Any] | None = None
+
+    def __post_init__(self) -> None:
+        if self.figure is not None and not self.alt:
+            raise ValueError("a figure needs alt text")
+
+
+@dataclass(frozen=True)
+class Proof:
+    """Machine proof of an erratum: a statement, whether the computation confirms it, the numbers."""
+
+    statement: str
+    holds: bool
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+class Assumed(Mapping[str, Any]):
+    """Values of a document's assumptions, with the names that a computation really read."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = dict(values)
+        self.read: set[str] = set()
+
+    def __getitem__(self, key: str) -> Any:
+        value = self._values[key]
+        self.read.add(key)
+        return value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)

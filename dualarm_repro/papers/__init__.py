@@ -1,0 +1,20 @@
+"""The documents: one room each, which registers its items with the ledger."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+
+from ..ledger import REGISTRY, Registry
+
+#: Documents with code; the others have data files only.
+ROOMS = ("xue",)
+
+
+@cache
+def load() -> Registry:
+    """The registry with every document read and every checker registered."""
+    REGISTRY.load()
+    for room in ROOMS:
+        import_module(f"{__name__}.{room}")
+    return REGISTRY

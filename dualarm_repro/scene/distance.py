@@ -1,0 +1,78 @@
+"""Signed distance, witness points and normal of two shapes, one of which is a sphere or a capsule."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import coal
+import numpy as np
+
+from ..errors import InputError
+from .hull import ConvexHull
+from .pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
+from .shapes import Box, Capsule, HalfSpace, Sphere
+
+Shape = Sphere | Capsule | Box | HalfSpace | ConvexHull
+_PAIR = np.array([[0, 1]])
+_FIRST = np.array([[0, 0]])
+
+
+class Witness(NamedTuple):
+    """Where two shapes are nearest, or the shortest way out of each other.
+
+    ``point_b = point_a + distance * normal``; the unit normal points from a to b in the sense that
+    moving b along it lengthens the distance at unit rate, in contact and penetration as well.
+    """
+
+    distance: float
+    point_a: np.ndarray
+    point_b: np.ndarray
+    normal: np.ndarray
+
+    def swapped(self) -> Witness:
+        """The same with a and b exchanged."""
+        return Witness(self.distance, self.point_b, self.point_a, -self.normal)
+
+
+def signed_distance(a: Shape, b: Shape) -> Witness:
+    """d(a, b): length of the shortest gap, or minus that of the shortest separating translation.
+
+    The translation is the shortest one of a relative to b after which they only touch (penetration
+    depth). Distances to a box and between round shapes are closed forms, exact to rounding;
+    distances to a :class:`.hull.ConvexHull` are coal's (GJK, and EPA in penetration).
+
+    Raises
+    ------
+    InputError
+        Neither shape is a sphere or a capsule.
+    """
+    if not isinstance(a, Sphere | Capsule):
+        if not isinstance(b, Sphere | Capsule):
+            names = f"{type(a).__name__}, {type(b).__name__}"
+            raise InputError("signed_distance", "shapes", names, "a sphere or capsule among them")
+        return signed_distance(b, a).swapped()
+    distance, witness = np.empty((1, 1)), np.empty((1, 1, 3, 3))
+    ends, radius = a.core[np.newaxis, np.newaxis], np.array([a.radius])
+    match b:
+        case Sphere() | Capsule():
+            ends, radius = np.stack([a.core, b.core])[np.newaxis], np.array([a.radius, b.radius])
+            capsules_capsules(ends, radius, _PAIR, distance, witness)
+        case Box():
+            boxes = b.pose[np.newaxis, np.newaxis], b.half[np.newaxis]
+            capsules_boxes(ends, radius, *boxes, _FIRST, distance, witness)
+        case HalfSpace():
+            capsules_planes(ends, radius, b.plane[np.newaxis], _FIRST, distance, witness)
+        case ConvexHull():
+            return coal_distance(*a.coal(), *b.coal())
+    return Witness(float(distance[0, 0]), *witness[0, 0])
+
+
+def coal_distance(
+    a: coal.CollisionGeometry, pose_a: coal.Transform3s, b: coal.Convex, pose_b: coal.Transform3s
+) -> Witness:
+    """The same from coal; a polytope and a core need finitely many steps, so it is exact."""
+    request, result = coal.DistanceRequest(), coal.DistanceResult()
+    distance = coal.distance(a, pose_a, b, pose_b, request, result)
+    return Witness(
+        distance, result.getNearestPoint1(), result.getNearestPoint2(), result.normal.copy()
+    )

@@ -1,0 +1,96 @@
+"""Convex hull of points, e.g. of circles around the joints of an arm, as an obstacle."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import coal
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike
+from scipy import spatial
+
+from ..errors import InputError
+from .quantities import frozen
+from .vectors import perpendicular
+
+
+class ConvexHull:
+    """Smallest convex set that contains the points.
+
+    Parameters
+    ----------
+    points : (M, 3)
+        At least four, not all in one plane [m].
+
+    Attributes
+    ----------
+    vertices : ndarray (V, 3)
+        The extreme points.
+    faces : ndarray (F, 3) of int
+        Triangles of the surface, rows of ``vertices``.
+    volume : float
+        [m^3]
+
+    Raises
+    ------
+    InputError
+        Too few or coplanar points, a wrong shape, NaN or infinity.
+    """
+
+    def __init__(self, points: ArrayLike) -> None:
+        expected = "at least four finite points (M, 3) that do not lie in one plane"
+        try:
+            points = np.array(points, dtype=float)
+            hull = spatial.ConvexHull(points)
+        except (TypeError, ValueError, spatial.QhullError):
+            raise InputError("ConvexHull", "points", points, expected) from None
+        if points.shape[1] != 3:
+            raise InputError("ConvexHull", "points", points, expected)
+        self.vertices = frozen(points[hull.vertices])
+        number = np.zeros(len(points), dtype=int)
+        number[hull.vertices] = np.arange(len(hull.vertices))
+        self.faces = frozen(number[hull.simplices])
+        self.volume = float(hull.volume)
+
+    @cached_property
+    def _convex(self) -> coal.Convex:
+        points = coal.StdVec_Vec3s()
+        points.extend(list(self.vertices))
+        return coal.Convex.convexHull(points, True, "Qt")
+
+    def moved(self, placement: pin.SE3) -> ConvexHull:
+        """The shape after a rigid motion."""
+        return ConvexHull(self.vertices @ placement.rotation.T + placement.translation)
+
+    def coal(self) -> tuple[coal.Convex, coal.Transform3s]:
+        """Geometry and placement for coal."""
+        return self._convex, coal.Transform3s()
+
+
+def circle_points(
+    centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int
+) -> np.ndarray:
+    """c_k + r_k (cos(2 pi i / count) x_k + sin(2 pi i / count) y_k), x_k and y_k normal to axis k.
+
+    Parameters
+    ----------
+    centers, axes : (K, 3)
+        Centers [m] and directions normal to the planes of the circles.
+    radii : (K,)
+        [m]
+    count : int
+        Points per circle, at least 3.
+
+    Returns
+    -------
+    ndarray (K count, 3)
+    """
+    if count < 3:
+        raise InputError("circle_points", "count", count, "at least 3")
+    angle = 2 * np.pi * np.arange(count) / count
+    x = np.array([perpendicular(axis) for axis in np.asarray(axes, dtype=float)])
+    y = np.cross(axes, x) / np.linalg.norm(axes, axis=1, keepdims=True)
+    ring = np.cos(angle)[:, None] * x[:, None] + np.sin(angle)[:, None] * y[:, None]
+    points = np.asarray(centers)[:, None] + np.asarray(radii)[:, None, None] * ring
+    return points.reshape(-1, 3)

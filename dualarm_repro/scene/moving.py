@@ -1,0 +1,131 @@
+"""Moving obstacles: a shape or a whole arm that follows a given trajectory over a common index.
+
+The index is any number that all trajectories of a scene share: a time, or the step of a planner.
+Between two samples a trajectory is linear, before the first and after the last it is held.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
+
+from ..arms.arm import Arm
+from ..errors import InputError
+from .hull import ConvexHull
+from .shapes import Box, Capsule, Sphere
+
+
+class _Track:
+    """Samples over an increasing index."""
+
+    def __init__(self, source: str, count: int, index: ArrayLike | None) -> None:
+        expected = f"{count} finite numbers in increasing order"
+        try:
+            self.index = np.arange(count, dtype=float) if index is None else np.array(index, float)
+        except (TypeError, ValueError):
+            raise InputError(source, "index", index, expected) from None
+        finite = self.index.shape == (count,) and np.isfinite(self.index).all()
+        if count == 0 or not finite or not (np.diff(self.index) > 0).all():
+            raise InputError(source, "index", index, expected if count else "at least one sample")
+
+    def _locate(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Sample before each time and the fraction of the way to the next, held outside."""
+        position = np.interp(time, self.index, np.arange(len(self.index)))
+        before = np.minimum(position.astype(int), max(len(self.index) - 2, 0))
+        return before, position - before
+
+    def _cumulative(self, time: np.ndarray, steps: np.ndarray) -> np.ndarray:
+        """Sum of the steps (M-1, n) walked until each time, (N, n)."""
+        total = np.vstack([np.zeros(steps.shape[1]), np.cumsum(steps, axis=0)])
+        return np.column_stack([np.interp(time, self.index, column) for column in total.T])
+
+
+class JointPath(_Track):
+    """Joint vectors q_k at index t_k, q(t) linear in between.
+
+    Parameters
+    ----------
+    configurations : (M, nq)
+        [rad]
+    index : (M,), optional
+        Increasing; 0 ... M-1 if not given.
+    """
+
+    def __init__(self, configurations: ArrayLike, index: ArrayLike | None = None) -> None:
+        expected = "finite joint vectors (M, nq)"
+        try:
+            self.configurations = np.array(configurations, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError("JointPath", "configurations", configurations, expected) from None
+        if self.configurations.ndim != 2 or not np.isfinite(self.configurations).all():
+            raise InputError("JointPath", "configurations", configurations, expected)
+        super().__init__("JointPath", len(self.configurations), index)
+
+    def at(self, time: np.ndarray) -> np.ndarray:
+        """q(t) for times (N,), (N, nq)."""
+        k, fraction = self._locate(time)
+        after = np.minimum(k + 1, len(self.configurations) - 1)
+        start = self.configurations[k]
+        return start + fraction[:, None] * (self.configurations[after] - start)
+
+    def travel(self, time: np.ndarray) -> np.ndarray:
+        """Angle each joint has covered until t, back and forth added, (N, nq)."""
+        return self._cumulative(time, np.abs(np.diff(self.configurations, axis=0)))
+
+
+class PosePath(_Track):
+    """Poses T_k at index t_k; translation linear and rotation about a fixed axis in between.
+
+    Parameters
+    ----------
+    poses : sequence of M pinocchio.SE3
+    index : (M,), optional
+        Increasing; 0 ... M-1 if not given.
+    """
+
+    def __init__(self, poses: Sequence[pin.SE3], index: ArrayLike | None = None) -> None:
+        super().__init__("PosePath", len(poses), index)
+        self.translation = np.array([pose.translation for pose in poses])
+        self.rotation = np.array([pose.rotation for pose in poses])
+        if not (np.isfinite(self.translation).all() and np.isfinite(self.rotation).all()):
+            raise InputError("PosePath", "poses", poses, "finite poses")
+        relative = self.rotation[:-1].transpose(0, 2, 1) @ self.rotation[1:]
+        self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
+        self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
+
+    def at(self, time: np.ndarray) -> np.ndarray:
+        """T(t) for times (N,), upper parts (N, 3, 4)."""
+        k, fraction = self._locate(time)
+        turned = Rotation.from_rotvec(fraction[:, None] * self._turn[k]).as_matrix()
+        translation = self.translation[k] + fraction[:, None] * self._step[k]
+        return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
+
+    def travel(self, time: np.ndarray) -> np.ndarray:
+        """Distance covered [m] and angle turned [rad] until t, (N, 2)."""
+        steps = [np.linalg.norm(part[:-1], axis=1) for part in (self._step, self._turn)]
+        return self._cumulative(time, np.column_stack(steps))
+
+
+@dataclass(frozen=True, eq=False)
+class MovingShape:
+    """A shape, given in its own frame, whose frame follows a path."""
+
+    shape: Sphere | Capsule | Box | ConvexHull
+    path: PosePath
+
+
+@dataclass(frozen=True, eq=False)
+class MovingArm:
+    """An arm on a base at ``placement`` that replays a joint path."""
+
+    arm: Arm
+    path: JointPath
+    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
+
+    def __post_init__(self) -> None:
+        self.arm.configurations(self.path.configurations)

@@ -1,0 +1,81 @@
+"""Signed distances of many capsules to capsules, boxes and half-spaces, for many configurations.
+
+Row n of every array is one configuration; ``pairs`` (K, 2) names rows of the two sorts of bodies.
+Each kernel fills ``distance`` (N, K) and, unless it is empty, ``witness`` (N, K, 3, 3) with the
+points on a and b and the unit normal from a to b, such that point_b = point_a + distance * normal.
+Inflating both cores by their radii moves the points along the normal and shortens the distance by
+the radii, also for cores that overlap.
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+from .boxes import into_box, out_of_box, segment_box, segment_box_distance
+from .segments import closest_parameters, segment_segment
+from .vectors import along, dot, minus, rotated, scaled, vector
+
+
+@njit(cache=True, error_model="numpy")
+def _write(witness, p, q, normal):
+    for k in range(3):
+        witness[0, k] = p[k]
+        witness[1, k] = q[k]
+        witness[2, k] = normal[k]
+
+
+@njit(cache=True, error_model="numpy")
+def capsules_capsules(ends, radius, pairs, distance, witness):
+    """d = |core distance| - r_a - r_b; ``ends`` (N, C, 2, 3), ``radius`` (C,)."""
+    for n in range(len(distance)):
+        for k in range(len(pairs)):
+            i, j = pairs[k]
+            a, b = vector(ends[n, i, 0]), vector(ends[n, j, 0])
+            u, v = minus(vector(ends[n, i, 1]), a), minus(vector(ends[n, j, 1]), b)
+            if witness.size:
+                gap, p, q, normal = segment_segment(a, u, b, v)
+                p, q = along(p, radius[i], normal), along(q, -radius[j], normal)
+                _write(witness[n, k], p, q, normal)
+            else:
+                s, t = closest_parameters(a, u, b, v)
+                difference = minus(along(b, t, v), along(a, s, u))
+                gap = dot(difference, difference) ** 0.5
+            distance[n, k] = gap - radius[i] - radius[j]
+
+
+@njit(cache=True, error_model="numpy")
+def capsules_boxes(ends, radius, poses, half, pairs, distance, witness):
+    """d = signed core distance - r; ``poses`` (N, B, 3, 4) and half edges ``half`` (B, 3)."""
+    for n in range(len(distance)):
+        for k in range(len(pairs)):
+            i, j = pairs[k]
+            pose, h = poses[n, j], vector(half[j])
+            a = into_box(pose, vector(ends[n, i, 0]))
+            u = minus(into_box(pose, vector(ends[n, i, 1])), a)
+            if witness.size:
+                gap, p, q, normal = segment_box(a, u, h)
+                p = along(p, radius[i], normal)
+                _write(witness[n, k], out_of_box(pose, p), out_of_box(pose, q), rotated(pose, normal))
+            else:
+                gap = segment_box_distance(a, u, h)
+            distance[n, k] = gap - radius[i]
+
+
+@njit(cache=True, error_model="numpy")
+def capsules_planes(ends, radius, planes, pairs, distance, witness):
+    """d = min(n . a, n . b) - offset - r; ``planes`` (H, 4) rows of normal and offset.
+
+    Of a core parallel to the plane the middle is the witness.
+    """
+    for n in range(len(distance)):
+        for k in range(len(pairs)):
+            i, j = pairs[k]
+            up = vector(planes[j])
+            a = vector(ends[n, i, 0])
+            u = minus(vector(ends[n, i, 1]), a)
+            climb = dot(up, u)
+            p = along(a, 1.0 if climb < 0.0 else 0.0 if climb > 0.0 else 0.5, u)
+            distance[n, k] = dot(up, p) - planes[j, 3] - radius[i]
+            if witness.size:
+                p = along(p, -radius[i], up)
+                _write(witness[n, k], p, along(p, -distance[n, k], up), scaled(-1.0, up))

@@ -1,0 +1,96 @@
+"""Where the links of an arm are, for many configurations: frames, capsule cores, joint screws."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+import pinocchio as pin
+from numba import njit
+
+from ..arms.arm import Arm
+
+
+class Links(NamedTuple):
+    """Capsules of an arm: ``joint`` (C,) that carries each (0: the base), core ends ``local``
+    (C, 2, 3) in the frame of that joint as :func:`link_frames` has it, and ``radius`` (C,)."""
+
+    names: tuple[str, ...]
+    joint: np.ndarray
+    local: np.ndarray
+    radius: np.ndarray
+
+
+@lru_cache(maxsize=64)
+def links_of(arm: Arm) -> Links:
+    """Capsules of ``arm.geometry``."""
+    data = arm.model.createData()
+    q = pin.neutral(arm.model)
+    pin.forwardKinematics(arm.model, data, q)
+    frames = link_frames(arm.chain, np.eye(3, 4), q[np.newaxis])[0]
+    shapes = list(arm.geometry.geometryObjects)
+    local = np.empty((len(shapes), 2, 3))
+    for row, shape in zip(local, shapes, strict=True):
+        frame = frames[shape.parentJoint]
+        placement = data.oMi[shape.parentJoint] * shape.placement
+        for k, sign in enumerate((-1.0, 1.0)):
+            end = placement.act(np.array([0.0, 0.0, sign * shape.geometry.halfLength]))
+            row[k] = frame[:, :3].T @ (end - frame[:, 3])
+    return Links(
+        tuple(shape.name for shape in shapes),
+        np.array([shape.parentJoint for shape in shapes], dtype=int),
+        local,
+        np.array([shape.geometry.radius for shape in shapes], dtype=float),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def link_frames(chain, base, q):
+    """Frames of the base and of the joints, F_0 = base, F_j = F_(j-1) C_(j-1) Rz(q_j).
+
+    C_j are the constant transforms of :class:`dualarm_repro.arms.kernels.Chain`; z is the axis of
+    every joint.
+
+    Parameters
+    ----------
+    base : (3, 4)
+    q : (N, n) [rad]
+
+    Returns
+    -------
+    ndarray (N, n+1, 3, 4)
+        Rotation and origin in world coordinates.
+    """
+    count, joints = q.shape
+    frames = np.empty((count, joints + 1, 3, 4))
+    for n in range(count):
+        frames[n, 0] = base
+        for j in range(joints):
+            F, G, C, t = frames[n, j], frames[n, j + 1], chain.rotation[j], chain.translation[j]
+            s, c = np.sin(q[n, j]), np.cos(q[n, j])
+            for r in range(3):
+                x = F[r, 0] * C[0, 0] + F[r, 1] * C[1, 0] + F[r, 2] * C[2, 0]
+                y = F[r, 0] * C[0, 1] + F[r, 1] * C[1, 1] + F[r, 2] * C[2, 1]
+                G[r, 0], G[r, 1] = c * x + s * y, c * y - s * x
+                G[r, 2] = F[r, 0] * C[0, 2] + F[r, 1] * C[1, 2] + F[r, 2] * C[2, 2]
+                G[r, 3] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
+    return frames
+
+
+@njit(cache=True, error_model="numpy")
+def place_cores(frames, joint, local, ends):
+    """ends (N, C, 2, 3) = F_joint local, for frames (N, J, 3, 4) and local cores (C, 2, 3)."""
+    for n in range(len(frames)):
+        for c in range(len(joint)):
+            F = frames[n, joint[c]]
+            for k in range(2):
+                x, y, z = local[c, k]
+                for r in range(3):
+                    ends[n, c, k, r] = F[r, 0] * x + F[r, 1] * y + F[r, 2] * z + F[r, 3]
+
+
+def joint_screws(frames: np.ndarray) -> np.ndarray:
+    """Columns [o_j x z_j; z_j] of the Jacobian at the world origin, (N, n+1, 3, 4) -> (N, 6, n)."""
+    axes, origins = frames[:, 1:, :, 2], frames[:, 1:, :, 3]
+    return np.concatenate([np.cross(origins, axes), axes], axis=2).transpose(0, 2, 1)

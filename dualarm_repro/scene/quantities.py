@@ -1,0 +1,53 @@
+"""Checked geometric quantities: finite, of the right form, read-only."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+
+
+def vector3(source: str, name: str, value: ArrayLike) -> np.ndarray:
+    """Three finite numbers as a read-only array."""
+    return array_of(source, name, value, (3,), "three finite numbers")
+
+
+def positive(source: str, name: str, value: float) -> float:
+    """A positive finite number."""
+    number = array_of(source, name, value, (), "a positive finite number [m]")
+    if not number > 0:
+        raise InputError(source, name, value, "a positive finite number [m]")
+    return float(number)
+
+
+def rotation3(source: str, name: str, value: ArrayLike) -> np.ndarray:
+    """A rotation matrix, to 1e-9."""
+    expected = "a rotation matrix (3, 3)"
+    rotation = array_of(source, name, value, (3, 3), expected)
+    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-9) or np.linalg.det(rotation) < 0:
+        raise InputError(source, name, value, expected)
+    return rotation
+
+
+def unit3(source: str, name: str, value: ArrayLike) -> np.ndarray:
+    """A non-zero vector, scaled to length one."""
+    direction = vector3(source, name, value)
+    if not (length := np.linalg.norm(direction)) > 0:
+        raise InputError(source, name, value, "a vector that is not zero")
+    return frozen(direction / length)
+
+
+def array_of(source: str, name: str, value: ArrayLike, shape: tuple, expected: str) -> np.ndarray:
+    try:
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(source, name, value, expected) from None
+    if array.shape != shape or not np.isfinite(array).all():
+        raise InputError(source, name, value, expected)
+    return frozen(array)
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,56 @@
+"""House style of the figures: colours that survive colour-blindness, opaque paper in dark mode."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+
+#: Okabe and Ito's palette, which stays distinct under the common kinds of colour-blindness.
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
+    "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000",
+)  # fmt: skip
+PALETTE = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK)
+MASTER, SLAVE = BLUE, RED
+
+_SETTINGS = {
+    "axes.prop_cycle": mpl.cycler(color=PALETTE),
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": "medium",
+    "figure.constrained_layout.use": True,
+    "figure.dpi": 100,
+    "figure.facecolor": "white",
+    "font.size": 10,
+    "grid.alpha": 0.3,
+    "legend.frameon": False,
+    "savefig.facecolor": "white",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Draw figures inside this context."""
+    with mpl.rc_context(_SETTINGS):
+        yield
+
+
+def axes_3d(
+    width: float = 6.4, height: float = 5.2, columns: int = 1, **view: Any
+) -> tuple[mpl.figure.Figure, Any]:
+    """Figure with one or several 3-D axes labelled x, y, z in metres.
+
+    ``view`` goes to ``Axes3D.view_init`` (``elev``, ``azim``).
+    """
+    figure = plt.figure(figsize=(width, height))
+    axes = [figure.add_subplot(1, columns, k + 1, projection="3d") for k in range(columns)]
+    for ax in axes:
+        ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+        ax.view_init(**({"elev": 22, "azim": -60} | view))
+    return figure, axes[0] if columns == 1 else axes
