@@ -10,12 +10,15 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from ..errors import ConfigurationError, UnsupportedArmError
+from ..errors import ConfigurationError, InputError, UnsupportedArmError
 from . import dh, kernels
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
 from .robot_file import DHRobot
+from .wrist_ik import WristGeometry, inverse_kinematics, wrist_geometry
+
+SAME = 1e-6  # two branches whose angles differ by less than about this [rad] are one
 
 
 class Arm:
@@ -162,6 +165,63 @@ class Arm:
         q += self.lower
         return q
 
+    def ik(
+        self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
+    ) -> np.ndarray:
+        """Every configuration with T(q) = T, for six joints with a spherical wrist (closed form).
+
+        Parameters
+        ----------
+        T : (4, 4)
+            Pose of the flange in the base frame [m].
+        reference : (nq,) [rad], optional
+            Of the angles that differ by full turns the one nearest to it is returned, and where the pose
+            leaves an angle undetermined (axes 4 and 6 aligned: q4; wrist centre on axis 1: q1) it takes
+            this value. Default: the middle of the range.
+        within_limits : bool
+            Drop the branches that no full turn brings within the limits.
+
+        Returns
+        -------
+        ndarray (k, nq)
+            Distinct configurations, k <= 8; k = 0 if the pose is out of reach.
+
+        Raises
+        ------
+        UnsupportedArmError
+            The arm lacks the structure the closed form needs.
+        InputError
+            T is no pose.
+        """
+        pose = self._poses(T, ndim=2)
+        branches = self._solve(pose[np.newaxis], reference, within_limits)[0]
+        found: list[np.ndarray] = []
+        for q in branches[~np.isnan(branches).any(axis=1)]:
+            if all(np.abs(np.sin(0.5 * (q - other))).max() > SAME for other in found):
+                found.append(q)
+        return np.array(found).reshape(-1, self.nq)
+
+    def ik_branches(
+        self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
+    ) -> np.ndarray:
+        """The eight branches of :meth:`ik` for many poses, each at its own index.
+
+        Branch 4 a + 2 b + c has the shoulder turned back (a), the elbow angle negative (b) and the wrist
+        angle negative (c); between singularities a branch is continuous in T.
+
+        Parameters
+        ----------
+        T : (N, 4, 4)
+        reference, within_limits
+            As in :meth:`ik`.
+
+        Returns
+        -------
+        ndarray (N, 8, nq)
+            NaN for a branch that does not exist or is outside the limits.
+        """
+        return self._solve(self._poses(T, ndim=3), reference, within_limits)
+
     def symbolic_fk(self) -> sp.Matrix:
         """T(q) of a DH arm as a sympy Matrix (4, 4) in q_1 ... q_n, exact.
 
@@ -215,6 +275,41 @@ class Arm:
 
     def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
         return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]
+
+    @cached_property
+    def _wrist_geometry(self) -> WristGeometry:
+        return wrist_geometry(self.name, self.chain)
+
+    def _solve(
+        self, poses: np.ndarray, reference: ArrayLike | None, within_limits: bool
+    ) -> np.ndarray:
+        geometry = self._wrist_geometry
+        near = 0.5 * (self.lower + self.upper)
+        if reference is not None:
+            near = self.configurations(reference)
+        unlimited = np.full(self.nq, np.inf)
+        lower, upper = (self.lower, self.upper) if within_limits else (-unlimited, unlimited)
+        return inverse_kinematics(geometry, poses, near, lower, upper)
+
+    def _poses(self, T: ArrayLike, ndim: int) -> np.ndarray:
+        """``T`` as a float64 array of poses, checked."""
+        shape = "(4, 4)" if ndim == 2 else "(N, 4, 4)"
+        source, expected = f"arm {self.name}", f"{shape} finite, rotation and translation [m]"
+        try:
+            poses = np.asarray(T, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError(source, "T", T, expected) from None
+        if poses.ndim != ndim or poses.shape[-2:] != (4, 4):
+            raise InputError(source, "shape of T", poses.shape, expected)
+        if not np.isfinite(poses).all():
+            raise InputError(source, "T", "NaN or infinity", expected)
+        rotation = poses[..., :3, :3]
+        error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(initial=0.0)
+        if error > 1e-6 or (np.linalg.det(rotation) < 0).any():
+            raise InputError(source, "T", poses.tolist(), "an orthonormal right-handed rotation")
+        if (poses[..., 3, :] != (0.0, 0.0, 0.0, 1.0)).any():
+            raise InputError(source, "T", poses.tolist(), "the last row 0, 0, 0, 1")
+        return poses
 
     def _dh_robot(self, wanted: str) -> DHRobot:
         if self._robot is None:

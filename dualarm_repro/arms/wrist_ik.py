@@ -19,7 +19,7 @@ from .kernels import Chain
 
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
 SINGULAR = 1e-11  # sine below which an angle is undetermined and its reference is taken
-BOUNDARY = 1e-12  # relative overshoot of a cosine that rounding is allowed
+BOUNDARY = 1e-12  # relative overshoot of a square that rounding is allowed
 ON_LIMIT = 1e-11  # overshoot of a joint limit [rad] that is clipped
 _TIE = 1e-9  # half turns away from the reference are taken on the upper side within this
 _TURN = 2.0 * math.pi
@@ -35,8 +35,8 @@ class WristGeometry(NamedTuple):
     upper_arm: np.ndarray  # (2,) length, angle from Z to X
     forearm: np.ndarray  # (2,) length, angle from Z to X
     elbow_sign: float  # axis 3 along +Y or -Y
-    axes: np.ndarray  # (3, 3) rows z4, z5, z6
-    flange: np.ndarray  # (3, 3) rows: in the flange frame, z6, a normal of z6, flange minus wrist centre
+    wrist: np.ndarray  # (4, 3) rows z4, z5, z6 and a unit normal of z6
+    flange: np.ndarray  # (3, 3) in the flange frame, rows z6, that normal, flange minus wrist centre
 
 
 def wrist_geometry(name: str, chain: Chain) -> WristGeometry:
@@ -87,9 +87,139 @@ def wrist_geometry(name: str, chain: Chain) -> WristGeometry:
         upper_arm=upper_arm,
         forearm=forearm,
         elbow_sign=math.copysign(1.0, axes[1] @ axes[2]),
-        axes=np.array([z4, z5, z6]) @ base,
+        wrist=np.array([z4, z5, z6, normal]) @ base,
         flange=np.array([z6, normal, origins[6] - centre]) @ pose,
     )
+
+
+@njit(cache=True)
+def inverse_kinematics(geometry, poses, reference, lower, upper):
+    """All branches for every flange pose.
+
+    Parameters
+    ----------
+    geometry : WristGeometry
+    poses : ndarray (N, 4, 4)
+    reference : ndarray (6,)
+        Angles [rad]: each joint is the representative nearest to it, and equals it where undetermined
+        (q1 with the wrist centre on axis 1, q2 with it on axis 2, q4 with aligned axes 4 and 6).
+    lower, upper : ndarray (6,)
+        Limits [rad]; infinite ones allow every angle.
+
+    Returns
+    -------
+    ndarray (N, 8, 6)
+        NaN where a branch does not exist or has no representative within the limits.
+    """
+    out = np.empty((len(poses), BRANCHES, 6))
+    for k in range(len(poses)):
+        pose = poses[k]
+        d = _in_arm_frame(geometry, pose, 2)
+        p = _to_arm(geometry, pose[:3, 3] - geometry.origin)
+        centre = (p[0] - d[0], p[1] - d[1], p[2] - d[2])
+        tool, normal = _in_arm_frame(geometry, pose, 0), _in_arm_frame(geometry, pose, 1)
+        for arm in range(4):
+            s1, c1, s, c, reached = _arm_angles(geometry, centre, arm, reference, out[k, 2 * arm])
+            out[k, 2 * arm + 1, :3] = out[k, 2 * arm, :3]
+            near, level = _undo_arm(s1, c1, s, c, tool), _undo_arm(s1, c1, s, c, normal)
+            for branch in range(2 * arm, 2 * arm + 2):
+                q = out[k, branch]
+                if not (
+                    reached
+                    and _wrist_angles(geometry, near, level, branch, reference, q)
+                    and _bring_within(q, reference, lower, upper)
+                ):
+                    q[:] = np.nan
+    return out
+
+
+@njit(cache=True)
+def _arm_angles(geometry, centre, arm, reference, q):
+    """q1, q2, q3 that put the wrist centre there; sine and cosine of q1 and of the pitch q2 +- q3."""
+    l2, l3 = geometry.upper_arm[0], geometry.forearm[0]
+    slack = BOUNDARY * (l2 + l3) ** 2
+    b = geometry.lateral
+    square = centre[0] ** 2 + centre[1] ** 2
+    radius = math.sqrt(max(square - b * b, 0.0))
+    if arm & 2:
+        radius = -radius
+    if square > slack * SINGULAR:
+        s1 = (centre[1] * radius - centre[0] * b) / square
+        c1 = (centre[0] * radius + centre[1] * b) / square
+        q[0] = math.atan2(s1, c1)
+    else:
+        q[0] = reference[0]
+        s1, c1 = math.sin(q[0]), math.cos(q[0])
+
+    x, z = radius - geometry.shoulder[0], centre[2] - geometry.shoulder[1]
+    distance = math.hypot(x, z)
+    unbent = (l2 + l3 - distance) * (l2 + l3 + distance)
+    folded = (distance - l2 + l3) * (distance + l2 - l3)
+    reached = square > b * b - slack and unbent > -slack and folded > -slack
+    sine = math.sqrt(max(unbent, 0.0) * max(folded, 0.0)) / (2.0 * l2 * l3)
+    if arm & 1:
+        sine = -sine
+    cosine = (folded - unbent) / (4.0 * l2 * l3)
+    bend = math.atan2(sine, cosine)
+    if distance * distance > slack * SINGULAR:
+        ahead, behind = l2 + l3 * cosine, l3 * sine
+        upper_arm = math.atan2(x * ahead - z * behind, z * ahead + x * behind)
+    else:
+        upper_arm = reference[1] + geometry.upper_arm[1]
+    q[1] = upper_arm - geometry.upper_arm[1]
+    q[2] = geometry.elbow_sign * (bend + geometry.upper_arm[1] - geometry.forearm[1])
+    pitch = upper_arm + bend - geometry.forearm[1]
+    return s1, c1, math.sin(pitch), math.cos(pitch), reached
+
+
+@njit(cache=True)
+def _wrist_angles(geometry, tool, normal, branch, reference, q):
+    """q4, q5, q6 that turn z6 into ``tool`` and its normal into ``normal``; false if q5 is not real."""
+    z4, z5, z6 = _row(geometry.wrist, 0), _row(geometry.wrist, 1), _row(geometry.wrist, 2)
+    skew4, skew6, along = _dot(z4, z5), _dot(z5, z6), _dot(z4, tool)
+    across = _cross(z4, tool)
+    square = _dot(across, across) - skew4**2 - skew6**2 + 2.0 * skew4 * skew6 * along
+    if square < -BOUNDARY:
+        return False
+    sine, cosine = math.sqrt(max(square, 0.0)), along - skew4 * skew6
+    if branch & 1:
+        sine = -sine
+    sine0, cosine0 = _dot(z4, _cross(z5, z6)), _dot(z4, z6) - skew4 * skew6
+    scale = sine0**2 + cosine0**2
+    s5, c5 = (cosine * sine0 + sine * cosine0) / scale, (cosine * cosine0 - sine * sine0) / scale
+    q[4] = math.atan2(s5, c5)
+
+    bent = _turn(z5, s5, c5, z6)
+    side = _cross(z4, bent)
+    square = _dot(side, side)
+    if square > SINGULAR**2:
+        s4 = _dot(side, tool) / square
+        c4 = (_dot(bent, tool) - _dot(z4, bent) * along) / square
+        q[3] = math.atan2(s4, c4)
+    else:
+        q[3] = reference[3]
+        s4, c4 = math.sin(q[3]), math.cos(q[3])
+
+    rest = _row(geometry.wrist, 3)
+    cosine = _dot(normal, _turn(z4, s4, c4, _turn(z5, s5, c5, rest)))
+    sine = _dot(normal, _turn(z4, s4, c4, _turn(z5, s5, c5, _cross(z6, rest))))
+    q[5] = math.atan2(sine, cosine)
+    return True
+
+
+@njit(cache=True)
+def _bring_within(q, reference, lower, upper):
+    """Shift every angle by full turns next to its reference, then into its limits if they allow it."""
+    for j in range(6):
+        angle = q[j] + _TURN * math.floor((reference[j] - q[j]) / _TURN + 0.5 + _TIE)
+        while angle > upper[j] + ON_LIMIT:
+            angle -= _TURN
+        while angle < lower[j] - ON_LIMIT:
+            angle += _TURN
+        if angle > upper[j] + ON_LIMIT:
+            return False
+        q[j] = min(max(angle, lower[j]), upper[j])
+    return True
 
 
 @njit(cache=True)
@@ -115,45 +245,30 @@ def _turn(axis, s, c, v):
 
 
 @njit(cache=True)
+def _undo_arm(s1, c1, s, c, v):
+    """Ry(-pitch) Rz(-q1) v."""
+    x, y = c1 * v[0] + s1 * v[1], c1 * v[1] - s1 * v[0]
+    return (c * x - s * v[2], y, s * x + c * v[2])
+
+
+@njit(cache=True)
 def _row(matrix, k):
     return (matrix[k, 0], matrix[k, 1], matrix[k, 2])
 
 
 @njit(cache=True)
-def _apply_transposed(matrix, v):
+def _to_arm(geometry, v):
+    """A vector of the base frame in the frame of the geometry."""
+    base = geometry.base
     return (
-        matrix[0, 0] * v[0] + matrix[1, 0] * v[1] + matrix[2, 0] * v[2],
-        matrix[0, 1] * v[0] + matrix[1, 1] * v[1] + matrix[2, 1] * v[2],
-        matrix[0, 2] * v[0] + matrix[1, 2] * v[1] + matrix[2, 2] * v[2],
+        base[0, 0] * v[0] + base[1, 0] * v[1] + base[2, 0] * v[2],
+        base[0, 1] * v[0] + base[1, 1] * v[1] + base[2, 1] * v[2],
+        base[0, 2] * v[0] + base[1, 2] * v[1] + base[2, 2] * v[2],
     )
 
 
 @njit(cache=True)
 def _in_arm_frame(geometry, pose, k):
-    """A vector given in the flange frame (row ``k`` of ``flange``), in the frame of the geometry."""
+    """Row ``k`` of ``geometry.flange``, a vector of the flange frame, in the frame of the geometry."""
     f = _row(geometry.flange, k)
-    v = (_dot(_row(pose, 0), f), _dot(_row(pose, 1), f), _dot(_row(pose, 2), f))
-    return _apply_transposed(geometry.base, v)
-
-
-@njit(cache=True)
-def _wrist_angles(geometry, tool, normal, branch, reference):
-    """q4, q5, q6 with N z6 = ``tool`` and N n = ``normal``; valid is false if q5 does not exist."""
-    z4, z5, z6 = _row(geometry.axes, 0), _row(geometry.axes, 1), _row(geometry.axes, 2)
-    a, b, c = _dot(z4, z5), _dot(z5, z6), _dot(z4, tool)
-    zero = math.atan2(_dot(z4, _cross(z5, z6)), _dot(z4, z6) - a * b)
-    across = _cross(z4, tool)
-    square = _dot(across, across) - a * a - b * b + 2.0 * a * b * c
-    valid = square > -BOUNDARY
-    sine = math.sqrt(max(square, 0.0))
-    q5 = zero + math.atan2(-sine if branch & 1 else sine, c - a * b)
-    s5, c5 = math.sin(q5), math.cos(q5)
-    bent = _turn(z5, s5, c5, z6)
-    side = _cross(z4, bent)
-    if _dot(side, side) < SINGULAR * SINGULAR:
-        q4 = reference[3]
-    else:
-        q4 = math.atan2(_dot(side, tool), _dot(bent, tool) - _dot(z4, bent) * c)
-    s4, c4 = math.sin(q4), math.cos(q4)
-    n = _cross(geometry.flange_normal, z6)
-    return valid, q4, q5, 0.0
+    return _to_arm(geometry, (_dot(pose[0], f), _dot(pose[1], f), _dot(pose[2], f)))

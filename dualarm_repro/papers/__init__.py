@@ -6,6 +6,7 @@ from functools import cache
 from importlib import import_module
 
 from ..ledger import REGISTRY, Registry
+from ..view.page import Page, present
 
 #: Documents with code; the others have data files only.
 ROOMS = ("xue",)
@@ -18,3 +19,14 @@ def load() -> Registry:
     for room in ROOMS:
         import_module(f"{__name__}.{room}")
     return REGISTRY
+
+
+def show(item_id: str) -> Page:
+    """Everything the ledger knows about an item, for a cell of the book: ``show("xue.fig05")``.
+
+    Raises
+    ------
+    UnknownNameError
+        No such item.
+    """
+    return present(load(), item_id)

@@ -10,9 +10,8 @@ import numpy as np
 from ..errors import InputError
 from .hull import ConvexHull
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
-from .shapes import Box, Capsule, HalfSpace, Sphere
+from .shapes import Box, Capsule, HalfSpace, Shape, Sphere
 
-Shape = Sphere | Capsule | Box | HalfSpace | ConvexHull
 _PAIR = np.array([[0, 1]])
 _FIRST = np.array([[0, 0]])
 

@@ -15,10 +15,9 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .boxes import excess, into_box, shortest_exit
-from .distance import Shape
 from .hull import ConvexHull
 from .segments import CORES_MEET, projected
-from .shapes import Box, HalfSpace
+from .shapes import Box, HalfSpace, Shape
 from .vectors import along, dot, minus, perpendicular, rotated, scaled, vector
 
 

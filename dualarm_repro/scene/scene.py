@@ -7,28 +7,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from ..arms.arm import Arm
 from ..errors import ConfigurationError, InputError, UnknownNameError
-from .distance import Shape
+from .bodies import Bodies, PlacedArm, Shape, collect
 from .moving import JointPath, MovingArm, MovingShape
 from .pairs import Pairs, find_pairs
 from .shapes import HalfSpace
 
 FLOOR = "floor"
-
-
-@dataclass(frozen=True, eq=False)
-class PlacedArm:
-    """A controlled arm, the pose of its base in the world and, for a planner, start and goal [rad]."""
-
-    name: str
-    arm: Arm
-    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
-    start: np.ndarray | None = None
-    goal: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,12 +35,14 @@ class Scene:
     exempt : pairs of names
         Pairs that may touch. A name is a body (``left/capsule_2``) or all bodies of an owner.
     self_collision : bool
-        Whether bodies of one arm are paired with each other.
+        Whether links of one arm are watched against each other.
 
     Raises
     ------
     InputError
-        No arm, a name given twice or with a slash, an exempt pair of unknown names.
+        No arm, a name given twice or with a slash.
+    UnknownNameError
+        An exempt name that no body has.
     """
 
     arms: Sequence[PlacedArm]
@@ -62,17 +51,28 @@ class Scene:
     floor: float | None = None
     exempt: Collection[tuple[str, str]] = ()
     self_collision: bool = True
+    bodies: Bodies = field(init=False, repr=False)
+    pairs: Pairs = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        names = [*(placed.name for placed in self.arms), *self.obstacles, *self.moving]
+        solids = dict(self.obstacles)
+        names = [*(placed.name for placed in self.arms), *solids, *self.moving]
         if self.floor is not None:
             names.append(FLOOR)
+            solids[FLOOR] = HalfSpace((0.0, 0.0, 1.0), self.floor)
         for name in names:
             if names.count(name) > 1 or not name or "/" in name:
                 raise InputError("Scene", "name", name, "distinct names without a slash")
         if not self.arms:
             raise InputError("Scene", "arms", self.arms, "at least one arm")
-        self.pairs  # noqa: B018 - unknown exempt names are an error now, not at the first query
+        bodies = collect(
+            self.arms,
+            {n: tuple(s) if isinstance(s, Sequence) else (s,) for n, s in solids.items()},
+            self.moving,
+        )
+        object.__setattr__(self, "bodies", bodies)
+        pairs = find_pairs(bodies, self.arms, self.exempt, self.self_collision)
+        object.__setattr__(self, "pairs", pairs)
 
     @property
     def nq(self) -> int:
@@ -83,24 +83,58 @@ class Scene:
     def columns(self) -> dict[str, slice]:
         """Which entries of q belong to which arm."""
         ends = np.cumsum([placed.arm.nq for placed in self.arms]).tolist()
-        starts = [0, *ends[:-1]]
         return {
-            placed.name: slice(start, end)
-            for placed, start, end in zip(self.arms, starts, ends, strict=True)
+            placed.name: slice(end - placed.arm.nq, end)
+            for placed, end in zip(self.arms, ends, strict=True)
         }
 
-    @cached_property
-    def solids(self) -> dict[str, tuple[Shape, ...]]:
-        """Standing obstacles with the floor, each as a tuple of shapes."""
-        shapes = dict(self.obstacles)
-        if self.floor is not None:
-            shapes[FLOOR] = HalfSpace((0.0, 0.0, 1.0), self.floor)
-        return {
-            name: tuple(shape) if isinstance(shape, Sequence) else (shape,)
-            for name, shape in shapes.items()
-        }
+    def stack(self, **q: ArrayLike) -> np.ndarray:
+        """Joint vectors of all arms, given by name, as one q: (nq,), or (N, nq) from rows.
 
-    @cached_property
-    def pairs(self) -> Pairs:
-        """Bodies of the scene and the pairs whose distance is watched."""
-        return find_pairs(self)
+        Raises
+        ------
+        UnknownNameError
+            An arm is missing, or none has the name.
+        ConfigurationError
+            Wrong shape, NaN or infinity.
+        """
+        if set(q) != set(self.columns):
+            raise UnknownNameError("scene", "arms", sorted(q), f"all of {', '.join(self.columns)}")
+        parts = [placed.arm.configurations(q[placed.name]) for placed in self.arms]
+        return np.concatenate(parts, axis=-1)
+
+    def configurations(self, q: ArrayLike) -> np.ndarray:
+        """``q`` as a float64 array (nq,) or (N, nq).
+
+        Raises
+        ------
+        ConfigurationError
+            Wrong shape, NaN or infinity.
+        """
+        expected = f"{self.nq} finite numbers [rad] for {', '.join(self.columns)}, or rows of them"
+        try:
+            array = np.asarray(q, dtype=float)
+        except (TypeError, ValueError):
+            raise ConfigurationError("scene", "q", q, expected) from None
+        if array.ndim not in (1, 2) or array.shape[-1] != self.nq:
+            raise ConfigurationError("scene", "shape of q", array.shape, expected)
+        if not np.isfinite(array).all():
+            raise ConfigurationError("scene", "q", array[~np.isfinite(array)][0], expected)
+        return array
+
+    def replaying(self, name: str, path: JointPath) -> Scene:
+        """The same scene with one controlled arm turned into an obstacle that follows ``path``.
+
+        Raises
+        ------
+        UnknownNameError
+            No controlled arm has the name.
+        """
+        if name not in self.columns:
+            raise UnknownNameError("scene", "arm", name, f"one of {', '.join(self.columns)}")
+        placed = next(placed for placed in self.arms if placed.name == name)
+        return replace(
+            self,
+            arms=[other for other in self.arms if other is not placed],
+            moving={**self.moving, name: MovingArm(placed.arm, path, placed.placement)},
+        )

@@ -10,6 +10,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from .hull import ConvexHull
 from .quantities import array_of, frozen, positive, rotation3, unit3, vector3
 
 
@@ -134,6 +135,9 @@ class HalfSpace:
     def coal(self) -> tuple[coal.CollisionGeometry, coal.Transform3s]:
         """Geometry and placement for coal."""
         return coal.Halfspace(self.normal, self.offset), coal.Transform3s()
+
+
+Shape = Sphere | Capsule | Box | HalfSpace | ConvexHull
 
 
 def _set(shape: object, **values: object) -> None:

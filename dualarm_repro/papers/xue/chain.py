@@ -1,0 +1,191 @@
+"""Table 1 and equations (1)-(8): the kinematic chain of the master."""
+
+from __future__ import annotations
+
+from functools import cache, partial
+
+import numpy as np
+import pandas as pd
+import sympy as sp
+
+from ...arms import load_arm
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role, Rounds
+from .printed_chain import LINKS, equal, joint_variable, link_matrix, printed_parameters, product
+from .printed_chain import substituted
+from .scenario import MASTER_GOAL, MASTER_START, SEED
+
+checks = partial(REGISTRY.checks, page="xue/kinematics")
+
+
+@checks(
+    "xue.tab01",
+    rules=[
+        Rounds(key="d", to="d", label="column d equals what matrices (2)-(7) contain"),
+        Rounds(key="alpha", to="alpha", label="column alpha equals what matrices (2)-(7) contain"),
+        Rounds(key="a_one_row_up", to="a", label="column a is that of the matrices, one row too high"),
+        Bounded(
+            key="goal_distance",
+            low=0.01,
+            role=Role.CONTRADICTS,
+            label="the table read under its own header misses the matrices at the goal by [m]",
+        ),
+    ],
+)
+def table_1(assumed: Assumed) -> Result:
+    """Table 1 against the parameters recovered from the matrices, and the two goal poses."""
+    parameters = printed_parameters()
+    shifted = [*parameters["a"][1:], 0.0]
+    goals = {name: load_arm(name).fk(MASTER_GOAL)[:3, 3] for name in ("es165d", "es165d-table1")}
+    distance = float(np.linalg.norm(goals["es165d"] - goals["es165d-table1"]))
+    table = pd.DataFrame(
+        {
+            "link": list(LINKS),
+            "a_printed": REGISTRY.item("xue.tab01").printed["a"],
+            "a_matrices": parameters["a"],
+            "d_matrices": parameters["d"],
+            "alpha_matrices": parameters["alpha"],
+        }
+    )
+    return Result(
+        obtained={
+            **parameters,
+            "a_one_row_up": shifted,
+            "goal_matrices": goals["es165d"].tolist(),
+            "goal_table": goals["es165d-table1"].tolist(),
+            "goal_distance": distance,
+        },
+        table=table,
+        caption=(
+            "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row too "
+            f"high under its own header. At the master's goal the two readings put the flange "
+            f"{distance:.4f} m apart, so the document contradicts itself."
+        ),
+    )
+
+
+@checks(
+    "xue.eq01",
+    rules=[
+        Is(key="links_with_alpha", value=6, label="with alpha, (1) gives all six matrices (2)-(7)"),
+        Bounded(
+            key="links_as_printed",
+            high=5,
+            role=Role.CONTRADICTS,
+            label="as printed, with the length a inside sine and cosine, (1) gives fewer than six",
+        ),
+    ],
+)
+def general_transform(assumed: Assumed) -> Result:
+    """Equation (1) as printed and corrected, against the six matrices."""
+    counts = {
+        corrected: sum(equal(substituted(k, corrected=corrected), link_matrix(k)) for k in LINKS)
+        for corrected in (False, True)
+    }
+    return Result(
+        obtained={"links_as_printed": counts[False], "links_with_alpha": counts[True]},
+        caption=(
+            f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist angle "
+            f"alpha in place of the length a inside sine and cosine it gives {counts[True]}."
+        ),
+    )
+
+
+def _register_link(k: int) -> None:
+    """Equations (2)-(7): one printed link transform each."""
+
+    @checks(
+        f"xue.eq{k + 1:02d}",
+        rules=[
+            Is(key="equals_eq_1", value=True, label="equals (1), corrected, for this link's parameters"),
+            Is(key="equals_dh", value=True, label="equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm"),
+            Bounded(key="pinocchio", high=1e-12, label="largest difference to Pinocchio's placement"),
+        ],
+    )
+    def link_transform(assumed: Assumed) -> Result:
+        arm, printed = load_arm("es165d"), link_matrix(k)
+        difference = _largest_difference_to_pinocchio(k)
+        return Result(
+            obtained={
+                "equals_eq_1": equal(substituted(k, corrected=True), printed),
+                "equals_dh": equal(arm.link_transforms()[k - 1], printed),
+                "pinocchio": difference,
+            },
+            caption=(
+                f"Matrix ({k + 1}) equals the corrected (1) and the arm's own link transform in "
+                f"symbols, and Pinocchio's joint placement to {difference:.1e}."
+            ),
+        )
+
+
+for _k in LINKS:
+    _register_link(_k)
+
+
+@checks(
+    "xue.eq08",
+    rules=[
+        Is(key="product_is_dh", value=True, label="product of the printed matrices is the arm's T(q)"),
+        Bounded(key="pinocchio", high=1e-12, label="largest difference to Pinocchio"),
+        Bounded(key="kernel", high=1e-12, label="largest difference to the batch kernel"),
+        Bounded(key="orthonormal", high=1e-12, label="n, o, a are orthonormal to"),
+    ],
+)
+def end_effector_pose(assumed: Assumed) -> Result:
+    """Equation (8): the product in symbols, in Pinocchio and in the batch kernel."""
+    arm = load_arm("es165d")
+    q = arm.random_configurations(1000, np.random.default_rng(SEED))
+    symbolic = symbolic_poses(q)
+    pinocchio = np.array([arm.fk(row) for row in q])
+    rotations = symbolic[:, :3, :3]
+    identity = rotations @ rotations.transpose(0, 2, 1) - np.eye(3)
+    start, goal = (arm.fk(pose)[:3, 3] for pose in (MASTER_START, MASTER_GOAL))
+    return Result(
+        obtained={
+            "product_is_dh": equal(symbolic_pose(), arm.symbolic_fk()),
+            "pinocchio": float(abs(symbolic - pinocchio).max()),
+            "kernel": float(abs(symbolic - arm.fk(q)).max()),
+            "orthonormal": float(abs(identity).max()),
+            "tcp_start": start.tolist(),
+            "tcp_goal": goal.tolist(),
+        },
+        caption=(
+            "The product of the six printed matrices, evaluated in symbols, agrees with Pinocchio and "
+            f"with the batch kernel on {len(q)} random configurations to "
+            f"{abs(symbolic - pinocchio).max():.1e}. The master's flange goes from "
+            f"({_point(start)}) m to ({_point(goal)}) m."
+        ),
+    )
+
+
+@cache
+def symbolic_pose() -> sp.Matrix:
+    """T(q) as the product of the printed matrices (2)-(7)."""
+    return product([link_matrix(k) for k in LINKS])
+
+
+def symbolic_poses(q: np.ndarray) -> np.ndarray:
+    """The printed product evaluated at configurations (N, 6), shape (N, 4, 4)."""
+    variables = [joint_variable(k) for k in LINKS]
+    entries = sp.lambdify(variables, list(symbolic_pose()), "numpy", cse=True)(*q.T)
+    columns = [np.broadcast_to(entry, len(q)) for entry in entries]
+    return np.stack(columns, axis=1).reshape(-1, 4, 4)
+
+
+def _largest_difference_to_pinocchio(k: int) -> float:
+    """Printed link transform against the placement of joint k in the model, over a turn."""
+    import pinocchio as pin
+
+    arm = load_arm("es165d")
+    data = arm.model.createData()
+    printed = sp.lambdify(joint_variable(k), link_matrix(k), "numpy")
+    largest = 0.0
+    for angle in np.linspace(-np.pi, np.pi, 37):
+        q = np.zeros(arm.nq)
+        q[k - 1] = angle
+        pin.forwardKinematics(arm.model, data, q)
+        largest = max(largest, float(abs(data.liMi[k].homogeneous - printed(angle)).max()))
+    return largest
+
+
+def _point(values: np.ndarray) -> str:
+    return ", ".join(f"{value + 0.0:.4f}" for value in values.round(12))

@@ -1,0 +1,151 @@
+"""Signed distances of all watched pairs of a scene, for one or many configurations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import coal
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+from .distance import coal_distance
+from .pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
+from .placement import Placed, place
+from .scene import Scene
+from .shapes import Capsule
+
+# Configurations handled at once, so that their cores stay in the cache of the processor.
+_BLOCK = 512
+
+
+@dataclass(frozen=True, eq=False)
+class Clearance:
+    """Distances of the pairs of a scene at one configuration, or at N with a leading axis.
+
+    Attributes
+    ----------
+    names : tuple of (str, str)
+        The two bodies of each pair.
+    distance : ndarray (P,) or (N, P)
+        Signed, negative in penetration [m].
+    point_a, point_b, normal : ndarray (..., P, 3)
+        Nearest points in the world and the unit normal from the first body to the second,
+        ``point_b = point_a + distance * normal``.
+    """
+
+    names: tuple[tuple[str, str], ...]
+    distance: np.ndarray
+    point_a: np.ndarray
+    point_b: np.ndarray
+    normal: np.ndarray
+
+    @property
+    def minimum(self) -> float | np.ndarray:
+        """Smallest distance, float or (N,); infinite if no pair is watched.
+
+        It is continuous in q, and differentiable only where one pair attains it: where the nearest
+        pair switches, its one-sided derivatives are those of the pairs that attain it.
+        """
+        smallest = self.distance.min(axis=-1, initial=np.inf)
+        return float(smallest) if smallest.ndim == 0 else smallest
+
+    @property
+    def nearest(self) -> int | np.ndarray:
+        """Which pair attains the minimum, int or (N,); of several the first."""
+        pair = self.distance.argmin(axis=-1)
+        return int(pair) if pair.ndim == 0 else pair
+
+
+def clearance(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> Clearance:
+    """d_k(q, t) of every watched pair, with nearest points and normals.
+
+    Parameters
+    ----------
+    q : (nq,) or (N, nq)
+        Joint vectors of the controlled arms one after the other [rad].
+    time : float or (N,)
+        Index at which moving obstacles are taken.
+
+    Raises
+    ------
+    ConfigurationError, InputError
+        Wrong shape, NaN or infinity in ``q`` or ``time``.
+    """
+    rows = scene.configurations(q)
+    single = rows.ndim == 1
+    rows = np.atleast_2d(rows)
+    distance = np.empty((len(rows), len(scene.pairs)))
+    witness = np.empty((len(rows), len(scene.pairs), 3, 3))
+    _fill(scene, rows, time, distance, witness)
+    if single:
+        distance, witness = distance[0], witness[0]
+    return Clearance(scene.pairs.names, distance, *np.moveaxis(witness, -2, 0))
+
+
+def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
+    """The distances of :func:`clearance` alone, (P,) or (N, P); several times faster for many q."""
+    rows = scene.configurations(q)
+    distance = np.empty((*rows.shape[:-1], len(scene.pairs)))
+    _fill(scene, np.atleast_2d(rows), time, np.atleast_2d(distance), None)
+    return distance
+
+
+def _fill(
+    scene: Scene,
+    q: np.ndarray,
+    time: ArrayLike,
+    distance: np.ndarray,
+    witness: np.ndarray | None,
+) -> None:
+    time = _times(time, len(q))
+    bodies, rows = scene.bodies, scene.pairs.rows
+    for block in _blocks(len(q)):
+        placed = place(scene, q[block], time[block])
+        cores, start = (placed.cores, bodies.radius), 0
+        for sort, pairs in rows.items():
+            columns = slice(start, start + len(pairs))
+            start = columns.stop
+            out = distance[block, columns]
+            points = np.empty((0, 0, 3, 3)) if witness is None else witness[block, columns]
+            match sort:
+                case "capsule":
+                    capsules_capsules(*cores, pairs, out, points)
+                case "box":
+                    capsules_boxes(*cores, placed.boxes, bodies.half, pairs, out, points)
+                case "plane":
+                    capsules_planes(*cores, bodies.planes, pairs, out, points)
+                case "hull":
+                    _capsules_hulls(scene, placed, pairs, out, points)
+
+
+def _capsules_hulls(
+    scene: Scene, placed: Placed, pairs: np.ndarray, distance: np.ndarray, witness: np.ndarray
+) -> None:
+    """Hulls go through coal one by one."""
+    radius, hulls = scene.bodies.radius, scene.bodies.hulls
+    for n, k in np.ndindex(distance.shape):
+        i, j = pairs[k]
+        link = Capsule(*placed.cores[n, i], radius[i])
+        pose = placed.hulls[n, j]
+        transform = coal.Transform3s(pose[:, :3], pose[:, 3])
+        found = coal_distance(*link.coal(), hulls[j].coal()[0], transform)
+        distance[n, k] = found.distance
+        if witness.size:
+            witness[n, k] = found[1:]
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    return (slice(start, start + _BLOCK) for start in range(0, count, _BLOCK))
+
+
+def _times(time: ArrayLike, count: int) -> np.ndarray:
+    expected = f"a finite number, or {count} of them"
+    try:
+        array = np.asarray(time, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("scene", "time", time, expected) from None
+    if array.shape not in ((), (count,)) or not np.isfinite(array).all():
+        raise InputError("scene", "time", time, expected)
+    return np.broadcast_to(array, count)

@@ -1,0 +1,129 @@
+"""Which bodies of a scene are watched against which."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..arms.arm import Arm
+from ..errors import UnknownNameError
+from .bodies import Bodies, Body, PlacedArm, Sort
+from .pair_kernels import capsules_capsules
+from .posing import link_frames, links_of, place_cores
+
+SORTS: tuple[Sort, ...] = ("capsule", "box", "plane", "hull")
+_SAMPLES = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Watched pairs; the first body is a link of a controlled arm, the second goes by its sort."""
+
+    bodies: tuple[tuple[Body, Body], ...]
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+    @cached_property
+    def names(self) -> tuple[tuple[str, str], ...]:
+        """Names of the two bodies of each pair."""
+        return tuple((a.name, b.name) for a, b in self.bodies)
+
+    @cached_property
+    def rows(self) -> dict[Sort, np.ndarray]:
+        """Rows (K, 2) of the pairs whose second body is of a sort, in the order of ``bodies``."""
+        return {
+            sort: np.array(
+                [(a.row, b.row) for a, b in self.bodies if b.sort == sort], dtype=np.int64
+            ).reshape(-1, 2)
+            for sort in SORTS
+        }
+
+    def between(self, first: str, second: str) -> np.ndarray:
+        """Mask (P,) of the pairs that join two bodies or owners given by name, in either order.
+
+        Raises
+        ------
+        UnknownNameError
+            No watched pair has a body or owner of that name.
+        """
+        for name in (first, second):
+            _require(name, [body for pair in self.bodies for body in pair])
+        return np.array([_joins(pair, first, second) for pair in self.bodies], dtype=bool)
+
+
+def find_pairs(
+    bodies: Bodies,
+    arms: Iterable[PlacedArm],
+    exempt: Collection[tuple[str, str]],
+    self_collision: bool,
+) -> Pairs:
+    """Every link of a controlled arm against every other body, except
+
+    two bodies that never move, the links of one arm that are neighbours or overlap whatever the
+    configuration (:func:`always_overlapping`), and the exempt pairs.
+    """
+    for pair in exempt:
+        for name in pair:
+            _require(name, bodies.all)
+    overlapping = {placed.name: always_overlapping(placed.arm) for placed in arms}
+
+    def watched(a: Body, b: Body) -> bool:
+        if a.still and b.still or any(_joins((a, b), *names) for names in exempt):
+            return False
+        if a.owner != b.owner:
+            return True
+        return self_collision and abs(a.joint - b.joint) > 1 and not overlapping[a.owner][
+            a.row - first[a.owner], b.row - first[a.owner]
+        ]
+
+    first = {owner: min(bodies.rows(owner, "capsule"), default=0) for owner in overlapping}
+    links = [body for body in bodies.all if body.joint is not None]
+    pairs = [
+        (a, b)
+        for k, a in enumerate(links)
+        for b in [*links[k + 1 :], *bodies.all[len(links) :]]
+        if watched(a, b)
+    ]
+    return Pairs(tuple(sorted(pairs, key=lambda pair: SORTS.index(pair[1].sort))))
+
+
+def always_overlapping(arm: Arm) -> np.ndarray:
+    """Mask (C, C) of capsules of one arm that overlap in each of 64 configurations.
+
+    They are spread evenly over the joint limits by the additive recurrence of the plastic numbers
+    (k phi^-j mod 1, with phi the root of phi^(nq+1) = phi + 1).
+    """
+    phi = 2.0
+    for _ in range(32):
+        phi = (1.0 + phi) ** (1.0 / (arm.nq + 1))
+    fraction = np.outer(np.arange(1, _SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
+    q = arm.lower + fraction * (arm.upper - arm.lower)
+    links = links_of(arm)
+    count = len(links.radius)
+    ends = np.empty((_SAMPLES, count, 2, 3))
+    place_cores(link_frames(arm.chain, np.eye(3, 4), q), links.joint, links.local, ends)
+    rows = np.argwhere(np.ones((count, count), dtype=bool))
+    distance = np.empty((_SAMPLES, len(rows)))
+    capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))
+    return (distance < 0).all(axis=0).reshape(count, count)
+
+
+def _belongs(body: Body, name: str) -> bool:
+    return name in (body.name, body.owner)
+
+
+def _joins(pair: tuple[Body, Body], first: str, second: str) -> bool:
+    a, b = pair
+    return (_belongs(a, first) and _belongs(b, second)) or (
+        _belongs(a, second) and _belongs(b, first)
+    )
+
+
+def _require(name: str, bodies: Iterable[Body]) -> None:
+    known = sorted({known for body in bodies for known in (body.owner, body.name)})
+    if name not in known:
+        raise UnknownNameError("scene", "body", name, f"one of {', '.join(known)}")
