@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
-import click
 import typer
 from rich.console import Console
 from rich.table import Table
 from tqdm import tqdm
+from typer.exceptions import TyperException
 
-from .errors import DualArmError, UnknownNameError
+from .errors import DualArmError, LedgerError, UnknownNameError
 from .ledger import Registry
 from .ledger.schema import Kind
 
 app = typer.Typer(
-    no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -140,6 +140,25 @@ def sensitivity(
 
 
 @app.command()
+def study(
+    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME...]")] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="worker processes")] = 1,
+) -> None:
+    """Recompute stored studies whole; without a name, list them and whether they are up to date."""
+    registry = _registry()
+    for name in names or []:
+        if name not in registry.studies:
+            expected = f"one of {', '.join(registry.studies) or 'none stored yet'}"
+            raise UnknownNameError("study", "NAME", name, expected)
+    for name in names or []:
+        table = registry.studies[name].run(jobs, progress=sys.stderr.isatty())
+        print(f"{name}: {len(table)} cells stored")
+    if not names:
+        for name, entry in registry.studies.items():
+            print(f"{name}: {entry.status()} - {entry.title}")
+
+
+@app.command()
 def cite(
     item_id: OneId,
     form: Annotated[CitationFormat, typer.Option("--format")] = CitationFormat.BIBTEX,
@@ -157,26 +176,28 @@ def cite(
 
 
 def main() -> None:
-    """Entry point: an error of ours or of usage is one line on stderr and exit code 2."""
+    """Entry point: bad input is one line on stderr and exit code 2; a failed check is exit code 1."""
+    if len(sys.argv) == 1:
+        app(["--help"], standalone_mode=False)
+        sys.exit(2)
     try:
         sys.exit(app(standalone_mode=False))
-    except click.exceptions.NoArgsIsHelpError as error:
-        print(error.format_message())
-        sys.exit(2)
-    except click.ClickException as error:
+    except TyperException as error:
         _fail(error.format_message())
+    except LedgerError as error:
+        _fail(str(error), code=1)
     except DualArmError as error:
         _fail(str(error))
-    except (click.Abort, KeyboardInterrupt):
+    except (typer.Abort, KeyboardInterrupt):
         sys.exit(130)
-    except BrokenPipeError:
-        sys.stderr.close()
+    except BrokenPipeError:  # the reader of a pipe went away
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
 
 
-def _fail(message: str) -> None:
+def _fail(message: str, code: int = 2) -> None:
     print(f"dualarm: {' '.join(message.split())}", file=sys.stderr)
-    sys.exit(2)
+    sys.exit(code)
 
 
 def _registry() -> Registry:
@@ -248,3 +269,7 @@ def _robustness_line(found: dict[str, Any] | None) -> str:
     if flip is None:
         return f"{text}; no single change within the plausible values flips it"
     return f"{text}; flips at {flip['assumption']} = {flip['value']} (nominal {flip['nominal']})"
+
+
+if __name__ == "__main__":
+    main()

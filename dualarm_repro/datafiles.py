@@ -72,10 +72,13 @@ def read_yaml(path: Path) -> dict[str, Any]:
 
 def from_validation(source: object, error: ValidationError) -> DataFileError:
     """The first problem pydantic found, as an error that names file, field, value and expectation."""
-    first = error.errors()[0]
+    # A misspelt field is also a missing one; the misspelling is what helps.
+    first = min(error.errors(), key=lambda entry: entry["type"] != "extra_forbidden")
     field = ".".join(str(part) for part in first["loc"]) or "file"
     expected = first["msg"].removeprefix("Value error, ")
     value = "nothing" if first["type"] == "missing" else first["input"]
+    if first["type"] == "extra_forbidden":
+        expected = "no field of that name"
     if isinstance(value, dict):
         value = f"mapping with {', '.join(map(str, value))}"
     return DataFileError(source, field, value, expected[0].lower() + expected[1:])

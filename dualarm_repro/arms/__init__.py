@@ -1,4 +1,4 @@
-"""Arms: exact DH tables, Pinocchio models, batch kernels, closed-form inverse kinematics, workspace."""
+"""Arms: exact DH tables, models, batch kernels, closed-form inverse kinematics, workspace."""
 
 from .arm import Arm
 from .catalog import arm_names, load_arm

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import pinocchio as pin
@@ -16,7 +16,8 @@ from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
 from .robot_file import DHRobot
-from .wrist_ik import WristGeometry, inverse_kinematics, wrist_geometry
+from .wrist_geometry import WristGeometry, wrist_geometry
+from .wrist_ik import inverse_kinematics
 
 SAME = 1e-6  # two branches whose angles differ by less than about this [rad] are one
 
@@ -63,7 +64,7 @@ class Arm:
             robot.title,
             build_model(robot, name),
             FLANGE,
-            lambda: capsule_geometry(robot.capsules),
+            partial(capsule_geometry, robot.capsules),
             robot,
         )
 
@@ -110,8 +111,8 @@ class Arm:
     def joint_positions(self, q: ArrayLike) -> np.ndarray:
         """Origins of the joint frames 1 ... nq and of the flange in the base frame [m].
 
-        The frame of a joint is the one its variable turns: link frame i of a modified DH table, link
-        frame i-1 of a standard one.
+        The frame of a joint is the one its variable turns: link frame i of a modified DH table,
+        link frame i-1 of a standard one.
 
         Returns
         -------
@@ -136,7 +137,8 @@ class Arm:
         if q.ndim == 2:
             return kernels.jacobians(self.chain, q)
         frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        return pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
+        jacobian = pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
+        return jacobian.reshape(6, self.nq)  # Pinocchio drops the axis of a single joint
 
     def manipulability(self, q: ArrayLike) -> float | np.ndarray:
         """Yoshikawa's measure w(q) = sqrt(det(J J^T)).
@@ -175,9 +177,9 @@ class Arm:
         T : (4, 4)
             Pose of the flange in the base frame [m].
         reference : (nq,) [rad], optional
-            Of the angles that differ by full turns the one nearest to it is returned, and where the pose
-            leaves an angle undetermined (axes 4 and 6 aligned: q4; wrist centre on axis 1: q1) it takes
-            this value. Default: the middle of the range.
+            Of the angles that differ by full turns the one nearest to it is returned, and where
+            the pose leaves an angle undetermined (axes 4 and 6 aligned: q4; wrist centre on axis
+            1: q1) it takes this value. Default: the middle of the range.
         within_limits : bool
             Drop the branches that no full turn brings within the limits.
 
@@ -206,8 +208,8 @@ class Arm:
     ) -> np.ndarray:
         """The eight branches of :meth:`ik` for many poses, each at its own index.
 
-        Branch 4 a + 2 b + c has the shoulder turned back (a), the elbow angle negative (b) and the wrist
-        angle negative (c); between singularities a branch is continuous in T.
+        Branch 4 a + 2 b + c has the shoulder turned back (a), the elbow angle negative (b) and the
+        wrist angle negative (c); between singularities a branch is continuous in T.
 
         Parameters
         ----------

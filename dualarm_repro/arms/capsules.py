@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import product
 
 import coal
@@ -11,6 +12,8 @@ import pinocchio as pin
 
 from ..errors import UnsupportedArmError
 from .robot_file import Capsule
+
+ROUNDING = 1e-4  # a capsule that sticks out of another one by less [m] counts as inside it
 
 
 def capsule_geometry(capsules: Iterable[Capsule]) -> pin.GeometryModel:
@@ -28,7 +31,7 @@ def capsule_geometry(capsules: Iterable[Capsule]) -> pin.GeometryModel:
 def segment_capsule(
     start: np.ndarray, end: np.ndarray, radius: float
 ) -> tuple[pin.SE3, coal.Capsule]:
-    """Placement and shape of the capsule around a segment; coal's axis is z, its origin the middle."""
+    """Placement and shape of the capsule around a segment; coal's axis is z, about the middle."""
     axis = end - start
     length = float(np.linalg.norm(axis))
     z = axis / length if length > 0 else np.array([0.0, 0.0, 1.0])
@@ -37,19 +40,53 @@ def segment_capsule(
 
 
 def enclosing_capsules(shapes: pin.GeometryModel) -> pin.GeometryModel:
-    """A capsule around every shape, fixed to the same joint.
+    """A capsule around every shape, fixed to the same joint; one inside another is left out.
 
-    A sphere, a capsule and a cylinder keep their radius and axis; around the corners of a box or mesh the
-    axis is the direction of largest spread, the radius and the ends are the smallest for that axis.
+    A sphere, a capsule and a cylinder keep their radius and axis; around the corners of a box or
+    mesh the axis is the direction of largest spread, the radius and the ends are the smallest for
+    that axis.
+
+    Raises
+    ------
+    UnsupportedArmError
+        A shape is none of these.
     """
-    geometry = pin.GeometryModel()
+    found = []
     for shape in shapes.geometryObjects:
         start, end, radius = _enclose(shape.geometry)
-        placement, capsule = segment_capsule(start, end, radius)
-        geometry.addGeometryObject(
-            pin.GeometryObject(shape.name, shape.parentJoint, shape.placement * placement, capsule)
-        )
+        ends = shape.placement.act(start), shape.placement.act(end)
+        found.append(_Enclosing(shape.name, shape.parentJoint, *ends, radius))
+    geometry = pin.GeometryModel()
+    for k, capsule in enumerate(found):
+        inside = [other for other in found if other is not capsule and capsule.inside(other)]
+        if all(other.inside(capsule) and found.index(other) > k for other in inside):
+            placement, shape = segment_capsule(capsule.start, capsule.end, capsule.radius)
+            geometry.addGeometryObject(
+                pin.GeometryObject(capsule.name, capsule.joint, placement, shape)
+            )
     return geometry
+
+
+@dataclass(frozen=True, eq=False)
+class _Enclosing:
+    """A capsule in the frame of its joint."""
+
+    name: str
+    joint: int
+    start: np.ndarray
+    end: np.ndarray
+    radius: float
+
+    def inside(self, other: _Enclosing) -> bool:
+        """Whether it lies in another one: its two end balls do, and capsules are convex."""
+        axis = other.end - other.start
+        square = axis @ axis
+        for point in (self.start, self.end):
+            along = np.clip((point - other.start) @ axis / square, 0.0, 1.0) if square > 0 else 0.0
+            gap = np.linalg.norm(point - other.start - along * axis)
+            if self.joint != other.joint or gap + self.radius > other.radius + ROUNDING:
+                return False
+        return True
 
 
 def _enclose(shape: coal.CollisionGeometry) -> tuple[np.ndarray, np.ndarray, float]:

@@ -30,7 +30,8 @@ def load_arm(
     Parameters
     ----------
     name_or_path : str or Path
-        A name of :func:`arm_names`, or the path of a ``.yaml``/``.yml`` robot file or of a URDF file.
+        A name of :func:`arm_names`, or the path of a ``.yaml``/``.yml`` robot file or of a URDF
+        file.
     flange : str, optional
         Only for a URDF: frame used as flange; default the last link of the longest chain.
     lock : mapping of joint name to angle [rad], optional
@@ -55,32 +56,48 @@ def load_arm(
             expected = f"one of {', '.join(names)}, or the path of a URDF or YAML file"
             raise UnknownNameError("load_arm", "name", str(name_or_path), expected)
     if path.suffix not in (".yaml", ".yml"):
-        return _from_urdf(name, f"{name} (URDF)", URDF(path, flange, lock))
+        urdf = URDF(path, flange, lock)
+        return _from_urdf(name, f"{name} (URDF)", urdf, urdf)
     robot = load_robot_file(path)
+    if isinstance(robot, URDFRobot):
+        return _from_urdf_robot(name, path, robot, flange, lock)
     if flange is not None or lock is not None:
-        raise InputError("load_arm", "flange, lock", (flange, lock), "none for a robot YAML file")
-    return _from_robot(name, path, robot)
-
-
-def _from_robot(name: str, path: Path, robot: DHRobot | URDFRobot | MirrorRobot) -> Arm:
-    if isinstance(robot, DHRobot):
-        return Arm.from_dh(name, robot)
+        given = {"flange": flange, "lock": lock}
+        raise InputError("load_arm", "flange, lock", given, f"neither, since {name} is no URDF")
     if isinstance(robot, MirrorRobot):
         original = load_robot_file(path.with_name(f"{robot.of}.yaml"))
         if not isinstance(original, DHRobot):
             raise DataFileError(path, "of", robot.of, "the name of an arm given by a DH table")
         return Arm.from_dh(name, original.mirrored().model_copy(update={"title": robot.title}))
-    lock = {joint: float(angle) for joint, angle in robot.lock.items()}
-    urdf = URDF(_example_path(robot.urdf), robot.flange, lock)
-    if robot.collision is None:
-        return _from_urdf(name, robot.title, urdf)
-    shapes = URDF(_example_path(robot.collision), robot.flange, lock)
-    return _from_urdf(name, robot.title, urdf, shapes)
+    return Arm.from_dh(name, robot)
 
 
-def _from_urdf(name: str, title: str, urdf: URDF, shapes: URDF | None = None) -> Arm:
-    return Arm(name, title, urdf.model, urdf.flange, (shapes or urdf).capsules)
+def _from_urdf_robot(
+    name: str,
+    path: Path,
+    robot: URDFRobot,
+    flange: str | None,
+    lock: Mapping[str, float] | None,
+) -> Arm:
+    fixed = {joint: float(angle) for joint, angle in robot.lock.items()} if lock is None else lock
+    model, shapes = (
+        URDF(_urdf_path(path, field, urdf), flange or robot.flange, fixed)
+        for field, urdf in (("urdf", robot.urdf), ("collision", robot.collision or robot.urdf))
+    )
+    return _from_urdf(name, robot.title, model, shapes)
 
 
-def _example_path(path: str) -> Path:
-    return Path(getModelPath(path)) / path
+def _urdf_path(path: Path, field: str, urdf: str) -> Path:
+    """A URDF next to the robot file, or one of example-robot-data."""
+    beside = path.parent / urdf
+    if beside.exists():
+        return beside
+    try:
+        return Path(getModelPath(urdf)) / urdf
+    except OSError:
+        expected = "a URDF beside the robot file or below robots of example-robot-data"
+        raise DataFileError(path, field, urdf, expected) from None
+
+
+def _from_urdf(name: str, title: str, urdf: URDF, shapes: URDF) -> Arm:
+    return Arm(name, title, urdf.model, urdf.flange, shapes.capsules)

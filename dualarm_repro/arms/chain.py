@@ -24,13 +24,16 @@ def chain_of(name: str, model: pin.Model, flange: int) -> Chain:
     n = model.njoints - 1
     serial = list(model.parents)[1:] == list(range(n))
     if not serial or model.nq != n or model.nv != n or model.frames[flange].parentJoint != n:
-        raise UnsupportedArmError(f"arm {name}: not a serial chain of revolute joints to the flange")
+        raise UnsupportedArmError(
+            f"arm {name}: not a serial chain of revolute joints to the flange"
+        )
     data = model.createData()
     pin.computeJointJacobians(model, data, pin.neutral(model))
     constants = []
     turn = np.eye(3)
     for joint in range(1, n + 1):
-        column = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)[:, joint - 1]
+        jacobian = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)
+        column = jacobian.reshape(6, n)[:, joint - 1]  # Pinocchio drops the axis of a single joint
         if np.any(column[:3]) or not np.isclose(np.linalg.norm(column[3:]), 1.0):
             raise UnsupportedArmError(f"arm {name}: joint {model.names[joint]} is not revolute")
         placement = model.jointPlacements[joint]

@@ -30,7 +30,8 @@ def link_transforms(robot: DHRobot) -> list[sp.Matrix]:
     transforms = []
     for q, joint in zip(joint_symbols(len(robot.joints)), robot.joints, strict=True):
         turn_x, shift_x = _rotation_x(_exact(joint.alpha)), _translation(_length(joint.a), 0, 0)
-        turn_z, shift_z = _rotation_z(q + _exact(joint.offset)), _translation(0, 0, _length(joint.d))
+        theta = q + _exact(joint.offset)
+        turn_z, shift_z = _rotation_z(theta), _translation(0, 0, _length(joint.d))
         if robot.convention == "modified":
             transforms.append(turn_x * shift_x * turn_z * shift_z)
         else:
@@ -43,7 +44,7 @@ def link_transforms(robot: DHRobot) -> list[sp.Matrix]:
 
 
 def forward_kinematics(robot: DHRobot) -> sp.Matrix:
-    """T(q) = T_1 T_2 ... T_n (T_flange), expanded but not simplified by trigonometric identities."""
+    """T(q) = T_1 T_2 ... T_n (T_flange), expanded, without trigonometric identities."""
     product = sp.eye(4)
     for transform in link_transforms(robot):
         product = (product * transform).applyfunc(sp.expand)

@@ -1,7 +1,7 @@
 """Pinocchio model of a DH table.
 
-Every joint of a serial chain is (fixed transform) Rz(q) (fixed transform); the fixed transforms between
-two joints are merged into the placement of the second.
+Every joint of a serial chain is (fixed transform) Rz(q) (fixed transform); the fixed transforms
+between two joints are merged into the placement of the second.
 """
 
 from __future__ import annotations

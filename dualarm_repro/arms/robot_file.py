@@ -1,4 +1,4 @@
-"""Schema of ``data/robots/<name>.yaml``: an arm as DH table, as URDF, or as another arm's mirror image.
+"""Schema of ``data/robots/<name>.yaml``: a DH table, a URDF, or the mirror image of an arm.
 
 Lengths are numbers [m]. Angles are exact: a number [rad], ``"76 deg"`` or a multiple of pi such as
 ``"-pi/2"``; speeds are angles per second. Every number carries a key of ``sources`` and an evidence
@@ -24,6 +24,7 @@ from pydantic import (
 )
 
 from ..datafiles import from_validation, read_yaml
+from ..errors import DataFileError
 from .angle import EXPECTED, Angle
 
 Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
@@ -56,7 +57,7 @@ class Origin(_Model):
 class ColumnOrigin(Origin):
     """Where a column of the DH table comes from, with exceptions for single joints."""
 
-    joints: dict[int, Origin] = Field(default={}, description="joint number (from 1): its own origin")
+    joints: dict[int, Origin] = Field(default={}, description="joint, from 1: its own origin")
 
 
 class Joint(_Model):
@@ -180,10 +181,12 @@ class DHRobot(_Robot):
 
 
 class URDFRobot(_Robot):
-    """An arm taken from a URDF file of example-robot-data."""
+    """An arm taken from a URDF file."""
 
     kind: Literal["urdf"]
-    urdf: Text = Field(description="path below the folder robots of example-robot-data")
+    urdf: Text = Field(
+        description="path from the robot file, or below the folder robots of example-robot-data"
+    )
     flange: Text = Field(description="name of the frame used as flange")
     lock: dict[Text, ExactAngle] = Field(default={}, description="joint: angle it is fixed at")
     collision: Text | None = Field(
@@ -211,7 +214,7 @@ class MirrorRobot(_Robot):
 
 
 RobotFile = DHRobot | URDFRobot | MirrorRobot
-_ADAPTER: TypeAdapter[RobotFile] = TypeAdapter(Annotated[RobotFile, Field(discriminator="kind")])
+_KINDS = {"dh": DHRobot, "urdf": URDFRobot, "mirror": MirrorRobot}
 
 
 def load_robot_file(path: Path) -> RobotFile:
@@ -223,12 +226,15 @@ def load_robot_file(path: Path) -> RobotFile:
         With the first offending field, its value and what was expected.
     """
     content = read_yaml(path)
+    kind = content.get("kind", "nothing")
+    if not isinstance(kind, str) or kind not in _KINDS:
+        raise DataFileError(path, "kind", kind, f"one of {', '.join(_KINDS)}")
     try:
-        return _ADAPTER.validate_python(content)
+        return _KINDS[kind].model_validate(content)
     except ValidationError as error:
         raise from_validation(path, error) from None
 
 
 def json_schema() -> dict[str, Any]:
     """JSON Schema of a robot file, for editors and other tools."""
-    return _ADAPTER.json_schema()
+    return TypeAdapter(Annotated[RobotFile, Field(discriminator="kind")]).json_schema()

@@ -56,9 +56,7 @@ class URDF:
         for name in lock:
             if name not in names[1:]:
                 raise UnknownNameError(self.path, "lock", name, _one_of(names[1:]))
-        self._locked = [
-            k for k, name in enumerate(names) if k and (k not in chain or name in lock)
-        ]
+        self._locked = [k for k, name in enumerate(names) if k and (k not in chain or name in lock)]
         self._reference = pin.neutral(self._full)
         for name, angle in lock.items():
             self._reference[self._full.idx_qs[names.index(name)]] = angle

@@ -6,6 +6,7 @@ from .registry import REGISTRY, Registry
 from .result import Assumed, Proof, Result
 from .robustness import Robustness, robustness
 from .rules import Adopts, Bounded, Is, NeedsPrinted, Role, Rounds, Rule
+from .study import Study
 from .verdict import MEANING, Verdict
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Role",
     "Rounds",
     "Rule",
+    "Study",
     "Verdict",
     "evaluate",
     "prove",

@@ -72,7 +72,7 @@ def compose(registry: Registry, evaluation: Evaluation) -> dict[str, Any]:
             {"id": key, **paper.assumptions[key].model_dump(exclude_none=True)}
             for key in item.assumptions
         ],
-        "errata": [_erratum(registry, key) for key in registry.errata_of(evaluation.item_id)],
+        "errata": [erratum_record(registry, key) for key in registry.errata_of(evaluation.item_id)],
         "missing": item.missing,
         "notes": item.notes,
         "pending": item.pending,
@@ -80,7 +80,8 @@ def compose(registry: Registry, evaluation: Evaluation) -> dict[str, Any]:
     }
 
 
-def _erratum(registry: Registry, erratum_id: str) -> dict[str, Any]:
+def erratum_record(registry: Registry, erratum_id: str) -> dict[str, Any]:
+    """The public record of an erratum: its text, and its proof run now."""
     erratum, proof = registry.errata[erratum_id], prove(registry, erratum_id)
     return {
         "id": erratum_id,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,16 +10,12 @@ from typing import Any
 
 from ..datafiles import data_path
 from ..errors import DataFileError
+from .drift import differences
 from .evaluation import evaluate, prove
 from .files import to_json, write_text
 from .fingerprint import versions
-from .printed import leaves
 from .registry import Registry
 from .verdict import Verdict
-
-RELATIVE = 1e-6
-ABSOLUTE = 1e-9
-
 
 def reference_path(paper: str) -> Path:
     """File with the reference results of one document."""
@@ -56,17 +51,6 @@ def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
     return json.loads(to_json(found))
 
 
-def differences(expected: Any, found: Any) -> list[str]:
-    """Where two outcomes differ: numbers beyond 1e-6 relative, anything else at all."""
-    left, right = dict(leaves(expected)), dict(leaves(found))
-    lines = []
-    for path in sorted(left.keys() | right.keys(), key=str):
-        a, b = left.get(path, "absent"), right.get(path, "absent")
-        if not _same(a, b):
-            lines.append(f"{'.'.join(map(str, path))}: reference {a!r}, found {b!r}")
-    return lines
-
-
 def verify(registry: Registry, item_ids: Iterable[str], *, update: bool = False) -> dict[str, Any]:
     """Recompute items from nothing and compare them with the reference.
 
@@ -93,10 +77,3 @@ def verify(registry: Registry, item_ids: Iterable[str], *, update: bool = False)
     counts = Counter(made["verdict"] for made in found.values())
     verdicts = {str(v): counts[v] for v in Verdict if counts[v]}
     return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
-
-
-def _same(a: Any, b: Any) -> bool:
-    numbers = all(isinstance(x, int | float) and not isinstance(x, bool) for x in (a, b))
-    if numbers and (isinstance(a, float) or isinstance(b, float)):
-        return math.isclose(a, b, rel_tol=RELATIVE, abs_tol=ABSOLUTE)
-    return type(a) is type(b) and a == b

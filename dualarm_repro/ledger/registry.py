@@ -11,7 +11,9 @@ from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
 from .result import Assumed, Proof, Result
 from .rules import Rule
+from .sensitivity import Robustness
 from .schema import Erratum, Item, PaperFile, load_paper
+from .study import Study
 
 Compute = Callable[[Assumed], Result]
 Prove = Callable[[], Proof]
@@ -26,6 +28,7 @@ class Checker:
     page: str
     change: str | None = None
     samples: int = 0
+    robust: Callable[[], Robustness] | None = None
 
 
 @dataclass
@@ -35,6 +38,7 @@ class Registry:
     papers: dict[str, PaperFile] = field(default_factory=dict)
     checkers: dict[str, Checker] = field(default_factory=dict)
     proofs: dict[str, Prove] = field(default_factory=dict)
+    studies: dict[str, Study] = field(default_factory=dict)
 
     def checks(
         self,
@@ -44,6 +48,7 @@ class Registry:
         page: str,
         change: str | None = None,
         samples: int = 0,
+        robust: Callable[[], Robustness] | None = None,
     ) -> Callable[[Compute], Compute]:
         """Decorator: the function computes ``item_id`` and ``rules`` judge it.
 
@@ -55,6 +60,8 @@ class Registry:
             For an input that is not used as printed: what was changed.
         samples
             How many draws of the assumptions the robustness of the verdict is based on (0: none).
+        robust
+            Where a draw is too heavy for that: reads the robustness from a stored study.
 
         Raises
         ------
@@ -67,7 +74,9 @@ class Registry:
             raise LedgerError(f"{item_id}: a checker without rules cannot fail")
 
         def register(compute: Compute) -> Compute:
-            self.checkers[item_id] = Checker(compute, tuple(rules), page, change, samples)
+            self.checkers[item_id] = Checker(
+                compute, tuple(rules), page, change, samples, robust
+            )
             return compute
 
         return register
@@ -83,13 +92,23 @@ class Registry:
 
         return register
 
+    def keeps(self, study: Study) -> Study:
+        """Register a stored study."""
+        if study.name in self.studies:
+            raise LedgerError(f"{study.name}: a second study of that name")
+        self.studies[study.name] = study
+        return study
+
     def load(self, folder: Path | None = None) -> None:
         """Read every ``*.yaml`` below ``data/papers`` (or ``folder``)."""
-        for path in sorted((folder or data_path("papers")).glob("*.yaml")):
+        found = []
+        for path in (folder or data_path("papers")).glob("*.yaml"):
             paper = load_paper(path)
             if paper.document.id != path.stem:
                 raise LedgerError(f"{path.name}: document.id is {paper.document.id!r}")
-            self.papers[path.stem] = paper
+            found.append(paper)
+        for paper in sorted(found, key=lambda paper: (paper.document.order, paper.document.id)):
+            self.papers[paper.document.id] = paper
 
     @property
     def items(self) -> dict[str, Item]:

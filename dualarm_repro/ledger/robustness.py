@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -13,40 +12,11 @@ from ..errors import InputError
 from .evaluation import evaluate
 from .registry import Registry
 from .schema import Assumption
+from .sensitivity import Flip, Robustness
 
 SEED = 20200344
 _SCAN = 8  # steps from the nominal value to each end of a range before bisection
 _BISECTIONS = 12
-
-
-@dataclass(frozen=True)
-class Flip:
-    """The smallest change of one assumption, all others kept, that changes the verdict.
-
-    ``change`` is the distance to the nominal value as a share of the plausible range (1 for a
-    different choice).
-    """
-
-    assumption: str
-    nominal: Any
-    value: Any
-    change: float
-    verdict: str
-
-
-@dataclass(frozen=True)
-class Robustness:
-    """Share of sampled assumption values for which the verdict stays, with its 95 % interval."""
-
-    holds: float
-    samples: int
-    interval: tuple[float, float]
-    varied: tuple[str, ...]
-    flip: Flip | None
-
-    def as_json(self) -> dict[str, Any]:
-        """Plain mapping for JSON."""
-        return {**asdict(self), "interval": list(self.interval), "varied": list(self.varied)}
 
 
 def robustness(
@@ -56,6 +26,8 @@ def robustness(
 
     Scrambled Sobol points over the ranges and choices of the item's assumptions; then, one
     assumption at a time, a scan outwards from the nominal value and bisection for the flip.
+
+    A checker that brings a stored study gives that instead, unless ``samples`` is asked for.
 
     Returns None for an item that is not attempted or rests on no assumption that can vary.
 
@@ -70,6 +42,8 @@ def robustness(
     if checker is None:
         registry.item(item_id)
         return None
+    if checker.robust is not None and samples is None:
+        return checker.robust()
     count = checker.samples if samples is None else samples
     varied = {
         key: registry.paper_of(item_id).assumptions[key]
@@ -96,7 +70,7 @@ def robustness(
     return Robustness(
         holds=kept / count,
         samples=count,
-        interval=(interval.low, interval.high),
+        interval=(float(interval.low), float(interval.high)),
         varied=tuple(varied),
         flip=min(flips, key=lambda flip: flip.change, default=None),
     )

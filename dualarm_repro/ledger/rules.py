@@ -104,7 +104,8 @@ class Rounds(Rule):
             return self._with(evidence, agreed)
         path, text = next(iter(leaves(printed)))
         value, half_unit = read_number(text)
-        step = 3 * (half_unit if self.tolerance is None else self.tolerance)
+        allowed = half_unit if self.tolerance is None else self.tolerance
+        step = max(3 * allowed, 1e-9 * abs(value))  # large enough to change a float
         return self._with(evidence, replaced(self.found(evidence), path, value + step))
 
 

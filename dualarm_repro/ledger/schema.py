@@ -47,6 +47,7 @@ class Document(Model):
     """Bibliographic record; what the source does not print is left out and listed in ``unknown``."""
 
     id: Key
+    order: int = Field(default=0, description="place in listings")
     type: Literal["article", "inproceedings", "patent", "misc"]
     title: Text = Field(description="title in English")
     title_original: Text | None = None

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -20,7 +22,7 @@ Sort = Literal["capsule", "box", "plane", "hull"]
 
 @dataclass(frozen=True, eq=False)
 class PlacedArm:
-    """A controlled arm, the pose of its base in the world and, for a planner, start and goal [rad]."""
+    """A controlled arm, the pose of its base in the world and a planner's start and goal [rad]."""
 
     name: str
     arm: Arm
@@ -33,15 +35,17 @@ class Body(NamedTuple):
     """One link or obstacle.
 
     ``owner`` is the arm or obstacle it belongs to, ``row`` its place in the arrays of its sort,
-    ``joint`` the joint of a controlled arm that carries it (else None); ``still``: it never moves.
+    ``still``: it never moves. ``link`` counts the capsules of an arm (else 0), ``joint`` is the
+    joint of a controlled arm that carries it (else None).
     """
 
     name: str
     owner: str
     sort: Sort
     row: int
-    joint: int | None
     still: bool
+    link: int = 0
+    joint: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,9 +72,16 @@ class Bodies:
     planes: np.ndarray
     hulls: tuple[ConvexHull, ...]
 
+    @cached_property
+    def _rows(self) -> dict[tuple[str, Sort], list[int]]:
+        rows = defaultdict(list)
+        for body in self.all:
+            rows[body.owner, body.sort].append(body.row)
+        return dict(rows)
+
     def rows(self, owner: str, sort: Sort) -> list[int]:
-        """Rows of one owner among the bodies of one sort."""
-        return [body.row for body in self.all if body.owner == owner and body.sort == sort]
+        """Rows of one owner among the bodies of one sort, consecutive."""
+        return self._rows.get((owner, sort), [])
 
 
 def collect(
@@ -82,26 +93,25 @@ def collect(
     bodies: list[Body] = []
     data: dict[Sort, list] = {"capsule": [], "box": [], "plane": [], "hull": []}
 
-    def add(name: str, owner: str, sort: Sort, item: object, joint: int | None, still: bool) -> None:
-        bodies.append(Body(name, owner, sort, len(data[sort]), joint, still))
+    def add(item: object, name: str, owner: str, sort: Sort, *rest: object) -> None:
+        bodies.append(Body(name, owner, sort, len(data[sort]), *rest))
         data[sort].append(item)
 
     def add_arm(owner: str, arm: Arm, controlled: bool) -> None:
-        links = links_of(arm)
-        for name, joint, *core in zip(*links, strict=True):
-            still = joint == 0
-            add(f"{owner}/{name}", owner, "capsule", core, int(joint) if controlled else None, still)
+        for link, (name, joint, *core) in enumerate(zip(*links_of(arm), strict=True)):
+            carrier = int(joint) if controlled else None
+            add(core, f"{owner}/{name}", owner, "capsule", bool(joint == 0), link, carrier)
 
     def add_shape(name: str, owner: str, shape: Shape, still: bool) -> None:
         match shape:
             case Sphere() | Capsule():
-                add(name, owner, "capsule", (shape.core, shape.radius), None, still)
+                add((shape.core, shape.radius), name, owner, "capsule", still)
             case Box():
-                add(name, owner, "box", (shape.pose, shape.half), None, still)
+                add((shape.pose, shape.half), name, owner, "box", still)
             case HalfSpace():
-                add(name, owner, "plane", shape.plane, None, still)
+                add(shape.plane, name, owner, "plane", still)
             case ConvexHull():
-                add(name, owner, "hull", shape, None, still)
+                add(shape, name, owner, "hull", still)
 
     for placed in arms:
         add_arm(placed.name, placed.arm, controlled=True)

@@ -11,13 +11,12 @@ crossed with u, so that the shortest translation is along one of these six axes.
 
 from __future__ import annotations
 
-from numba import njit
-
+from .compiled import kernel
 from .segments import CORES_MEET, clamped
-from .vectors import along, cross, dot, rotated, rotated_back, scaled
+from .vectors import along, cross, dot, scaled
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def excess(p, h):
     """Vector from the nearest point of the box to p; zero inside."""
     return (
@@ -27,38 +26,34 @@ def excess(p, h):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def closest_parameter(a, u, h):
     """argmin of the distance of a + t u to the box over t in [0, 1]; of several, the middle."""
-    low, high, flat_low, flat_high = -1.0, 2.0, 2.0, -1.0
-    slope_low = slope_high = 0.0
-    for k in range(8):
-        if k < 2:
-            t = float(k)
-        else:
-            i = (k - 2) // 2
-            t = ((h[i] if k % 2 else -h[i]) - a[i]) / u[i] if u[i] != 0.0 else -1.0
-            if not 0.0 < t < 1.0:
-                continue
-        slope = dot(u, excess(along(a, t, u), h))
-        if slope < 0.0:
-            if t > low:
+    low, slope_low = 0.0, dot(u, excess(a, h))
+    high, slope_high = 1.0, dot(u, excess(along(a, 1.0, u), h))
+    if slope_low > 0.0:
+        return 0.0
+    if slope_high < 0.0:
+        return 1.0
+    flat_low = 0.0 if slope_low == 0.0 else 2.0
+    flat_high = 1.0 if slope_high == 0.0 else -1.0
+    for k in range(6):
+        i = k // 2
+        t = ((h[i] if k % 2 else -h[i]) - a[i]) / u[i]
+        if low < t < high:
+            slope = dot(u, excess(along(a, t, u), h))
+            if slope < 0.0:
                 low, slope_low = t, slope
-        elif slope > 0.0:
-            if t < high:
+            elif slope > 0.0:
                 high, slope_high = t, slope
-        else:
-            flat_low, flat_high = min(flat_low, t), max(flat_high, t)
+            else:
+                flat_low, flat_high = min(flat_low, t), max(flat_high, t)
     if flat_low <= flat_high:
         return 0.5 * (flat_low + flat_high)
-    if low < 0.0:
-        return 0.0
-    if high > 1.0:
-        return 1.0
     return low + (high - low) * slope_low / (slope_low - slope_high)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def shortest_exit(a, u, h):
     """Depth and unit direction of the shortest translation that takes a + [0, 1] u out of the box.
 
@@ -88,13 +83,13 @@ def shortest_exit(a, u, h):
     return depth, direction, axis
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def unit(k, sign):
     """Coordinate direction k with a sign."""
     return sign * (k == 0), sign * (k == 1), sign * (k == 2)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def deepest_parameter(a, u, h, direction, axis):
     """Parameter of the point of a + [0, 1] u that touches the box last on its way out."""
     if axis >= 3:
@@ -116,7 +111,7 @@ def deepest_parameter(a, u, h, direction, axis):
     return 0.5 * (low + high)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def segment_box(a, u, h):
     """Signed distance of a + [0, 1] u to the box, nearest points, unit normal segment to box.
 
@@ -136,22 +131,9 @@ def segment_box(a, u, h):
     return -depth, p, along(p, depth, direction), scaled(-1.0, direction)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def segment_box_distance(a, u, h):
     """The distance of :func:`segment_box` alone."""
     e = excess(along(a, closest_parameter(a, u, h), u), h)
     distance = dot(e, e) ** 0.5
     return distance if distance > CORES_MEET else -shortest_exit(a, u, h)[0]
-
-
-@njit(cache=True, error_model="numpy")
-def into_box(pose, p):
-    """A world point in the frame of a box; ``pose`` is the upper (3, 4) of its transform."""
-    return rotated_back(pose, (p[0] - pose[0, 3], p[1] - pose[1, 3], p[2] - pose[2, 3]))
-
-
-@njit(cache=True, error_model="numpy")
-def out_of_box(pose, p):
-    """A point in the frame of a box in world coordinates."""
-    x, y, z = rotated(pose, p)
-    return x + pose[0, 3], y + pose[1, 3], z + pose[2, 3]

@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import coal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
-from .distance import coal_distance
-from .pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
-from .placement import Placed, place
+from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
+from .placement import place
+from .quantities import array_of
 from .scene import Scene
-from .shapes import Capsule
 
+_NO_WITNESS = np.empty((0, 0, 3, 3))
 # Configurations handled at once, so that their cores stay in the cache of the processor.
 _BLOCK = 512
 
@@ -88,7 +86,7 @@ def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
     """The distances of :func:`clearance` alone, (P,) or (N, P); several times faster for many q."""
     rows = scene.configurations(q)
     distance = np.empty((*rows.shape[:-1], len(scene.pairs)))
-    _fill(scene, np.atleast_2d(rows), time, np.atleast_2d(distance), None)
+    _fill(scene, np.atleast_2d(rows), time, np.atleast_2d(distance), _NO_WITNESS)
     return distance
 
 
@@ -97,7 +95,7 @@ def _fill(
     q: np.ndarray,
     time: ArrayLike,
     distance: np.ndarray,
-    witness: np.ndarray | None,
+    witness: np.ndarray,
 ) -> None:
     time = _times(time, len(q))
     bodies, rows = scene.bodies, scene.pairs.rows
@@ -108,7 +106,7 @@ def _fill(
             columns = slice(start, start + len(pairs))
             start = columns.stop
             out = distance[block, columns]
-            points = np.empty((0, 0, 3, 3)) if witness is None else witness[block, columns]
+            points = witness[block, columns]
             match sort:
                 case "capsule":
                     capsules_capsules(*cores, pairs, out, points)
@@ -117,23 +115,9 @@ def _fill(
                 case "plane":
                     capsules_planes(*cores, bodies.planes, pairs, out, points)
                 case "hull":
-                    _capsules_hulls(scene, placed, pairs, out, points)
-
-
-def _capsules_hulls(
-    scene: Scene, placed: Placed, pairs: np.ndarray, distance: np.ndarray, witness: np.ndarray
-) -> None:
-    """Hulls go through coal one by one."""
-    radius, hulls = scene.bodies.radius, scene.bodies.hulls
-    for n, k in np.ndindex(distance.shape):
-        i, j = pairs[k]
-        link = Capsule(*placed.cores[n, i], radius[i])
-        pose = placed.hulls[n, j]
-        transform = coal.Transform3s(pose[:, :3], pose[:, 3])
-        found = coal_distance(*link.coal(), hulls[j].coal()[0], transform)
-        distance[n, k] = found.distance
-        if witness.size:
-            witness[n, k] = found[1:]
+                    for j, hull in enumerate(bodies.hulls):
+                        at = (placed.hulls, hull.polytope, j)
+                        capsules_hull(*cores, *at, pairs, out, points)
 
 
 def _blocks(count: int) -> Iterator[slice]:
@@ -141,11 +125,6 @@ def _blocks(count: int) -> Iterator[slice]:
 
 
 def _times(time: ArrayLike, count: int) -> np.ndarray:
-    expected = f"a finite number, or {count} of them"
-    try:
-        array = np.asarray(time, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("scene", "time", time, expected) from None
-    if array.shape not in ((), (count,)) or not np.isfinite(array).all():
-        raise InputError("scene", "time", time, expected)
-    return np.broadcast_to(array, count)
+    shape = np.shape(time) and (count,)
+    time = array_of("scene", "time", time, shape, f"a finite number, or {count} of them")
+    return np.broadcast_to(time, count)

@@ -1,19 +1,18 @@
-"""Signed distance, witness points and normal of two shapes, one of which is a sphere or a capsule."""
+"""Signed distance, witness points and normal of a sphere or capsule and another shape."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-import coal
 import numpy as np
 
 from ..errors import InputError
 from .hull import ConvexHull
-from .pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
+from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
 from .shapes import Box, Capsule, HalfSpace, Shape, Sphere
 
 _PAIR = np.array([[0, 1]])
-_FIRST = np.array([[0, 0]])
+_FIRST = np.zeros((1, 2), dtype=np.int64)
 
 
 class Witness(NamedTuple):
@@ -37,8 +36,7 @@ def signed_distance(a: Shape, b: Shape) -> Witness:
     """d(a, b): length of the shortest gap, or minus that of the shortest separating translation.
 
     The translation is the shortest one of a relative to b after which they only touch (penetration
-    depth). Distances to a box and between round shapes are closed forms, exact to rounding;
-    distances to a :class:`.hull.ConvexHull` are coal's (GJK, and EPA in penetration).
+    depth). All distances are closed forms or finite searches, exact to rounding.
 
     Raises
     ------
@@ -62,16 +60,6 @@ def signed_distance(a: Shape, b: Shape) -> Witness:
         case HalfSpace():
             capsules_planes(ends, radius, b.plane[np.newaxis], _FIRST, distance, witness)
         case ConvexHull():
-            return coal_distance(*a.coal(), *b.coal())
+            pose = np.eye(3, 4)[np.newaxis, np.newaxis]
+            capsules_hull(ends, radius, pose, b.polytope, 0, _FIRST, distance, witness)
     return Witness(float(distance[0, 0]), *witness[0, 0])
-
-
-def coal_distance(
-    a: coal.CollisionGeometry, pose_a: coal.Transform3s, b: coal.Convex, pose_b: coal.Transform3s
-) -> Witness:
-    """The same from coal; a polytope and a core need finitely many steps, so it is exact."""
-    request, result = coal.DistanceRequest(), coal.DistanceResult()
-    distance = coal.distance(a, pose_a, b, pose_b, request, result)
-    return Witness(
-        distance, result.getNearestPoint1(), result.getNearestPoint2(), result.normal.copy()
-    )

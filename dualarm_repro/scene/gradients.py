@@ -1,9 +1,9 @@
 """Derivative of the distances of a scene by its joints.
 
-d d / d q = n^T (J_b(p_b) - J_a(p_a)) with the unit normal n from a to b and the Jacobians of the
-points fixed to either body that are nearest now (the witness points may slide along the surfaces;
-by the envelope theorem that does not enter). Both points lie on one line along n, so one row
-[n, p x n] times the joint screws at the world origin serves both bodies.
+d d / d q_j = n . (J_b - J_a)_j = +-n . (z_j x (p - o_j)), with the unit normal n from a to b, axis
+z_j and origin o_j of the joint, + if it moves only b, - if only a. J_a and J_b belong to the points
+fixed to the bodies that are nearest now: that these slide along the surfaces does not enter
+(envelope theorem). Both lie on one line along n, so that either serves as p.
 """
 
 from __future__ import annotations
@@ -12,9 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .clearance import Clearance, clearance
-from .placement import place
-from .posing import joint_screws
+from .compiled import kernel
+from .placement import arm_frames
 from .scene import Scene
+from .vectors import cross, dot, minus, vector
+
+
+@kernel
+def _gradients(frames, sign, point, normal, gradient):
+    for n in range(gradient.shape[0]):
+        for k in range(gradient.shape[1]):
+            p, towards_b = vector(point[n, k]), vector(normal[n, k])
+            for j in range(gradient.shape[2]):
+                axis, origin = vector(frames[n, j, :, 2]), vector(frames[n, j, :, 3])
+                gradient[n, k, j] = sign[k, j] * dot(towards_b, cross(axis, minus(p, origin)))
 
 
 def clearance_gradient(
@@ -39,20 +50,9 @@ def clearance_gradient(
         [m/rad]
     """
     found = clearance(scene, q, time)
-    rows = np.atleast_2d(scene.configurations(q))
-    frames = place(scene, rows, np.broadcast_to(time, len(rows))).frames
-    screws = np.concatenate([joint_screws(frames[placed.name]) for placed in scene.arms], axis=2)
-    wrench = np.concatenate([found.normal, np.cross(found.point_a, found.normal)], axis=-1)
-    gradient = (wrench.reshape(len(rows), -1, 6) @ screws) * _support(scene)
-    return found, gradient.reshape(*found.distance.shape, scene.nq)
-
-
-def _support(scene: Scene) -> np.ndarray:
-    """+1 where a joint moves the second body of a pair only, -1 the first only, else 0; (P, nq)."""
-    sign = np.zeros((len(scene.pairs), scene.nq))
-    for row, (a, b) in zip(sign, scene.pairs.bodies, strict=True):
-        for body, value in ((a, -1.0), (b, 1.0)):
-            if body.joint is not None:
-                start = scene.columns[body.owner].start
-                row[start : start + body.joint] += value
-    return sign
+    gradient = np.empty((*found.distance.shape, scene.nq))
+    frames = arm_frames(scene, np.atleast_2d(scene.configurations(q)))
+    joints = np.concatenate([arm[:, 1:] for arm in frames], axis=1)
+    rows = (a.reshape(len(joints), *a.shape[-2:]) for a in (found.point_a, found.normal, gradient))
+    _gradients(joints, scene.support, *rows)
+    return found, gradient

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import coal
 import numpy as np
 import pinocchio as pin
@@ -11,7 +9,8 @@ from numpy.typing import ArrayLike
 from scipy import spatial
 
 from ..errors import InputError
-from .quantities import frozen
+from .polytope import Polytope
+from .quantities import array_of, frozen
 from .vectors import perpendicular
 
 
@@ -31,6 +30,8 @@ class ConvexHull:
         Triangles of the surface, rows of ``vertices``.
     volume : float
         [m^3]
+    polytope : Polytope
+        What the distance kernels read.
 
     Raises
     ------
@@ -40,24 +41,28 @@ class ConvexHull:
 
     def __init__(self, points: ArrayLike) -> None:
         expected = "at least four finite points (M, 3) that do not lie in one plane"
+        points = array_of("ConvexHull", "points", points, (None, 3), expected)
         try:
-            points = np.array(points, dtype=float)
             hull = spatial.ConvexHull(points)
-        except (TypeError, ValueError, spatial.QhullError):
+        except (ValueError, spatial.QhullError):
             raise InputError("ConvexHull", "points", points, expected) from None
-        if points.shape[1] != 3:
-            raise InputError("ConvexHull", "points", points, expected)
         self.vertices = frozen(points[hull.vertices])
         number = np.zeros(len(points), dtype=int)
         number[hull.vertices] = np.arange(len(hull.vertices))
         self.faces = frozen(number[hull.simplices])
         self.volume = float(hull.volume)
-
-    @cached_property
-    def _convex(self) -> coal.Convex:
-        points = coal.StdVec_Vec3s()
-        points.extend(list(self.vertices))
-        return coal.Convex.convexHull(points, True, "Qt")
+        # Triangle f meets its neighbour k in the edge opposite to its corner k.
+        one, corner = np.nonzero(hull.neighbors > np.arange(len(self.faces))[:, None])
+        other = hull.neighbors[one, corner]
+        ends = [self.faces[one, (corner + step) % 3] for step in (1, 2)]
+        normals = hull.equations[:, :3]
+        self.polytope = Polytope(
+            self.vertices,
+            hull.equations,
+            self.faces,
+            np.column_stack(ends),
+            np.stack([normals[one], normals[other]], axis=1),
+        )
 
     def moved(self, placement: pin.SE3) -> ConvexHull:
         """The shape after a rigid motion."""
@@ -65,12 +70,12 @@ class ConvexHull:
 
     def coal(self) -> tuple[coal.Convex, coal.Transform3s]:
         """Geometry and placement for coal."""
-        return self._convex, coal.Transform3s()
+        points = coal.StdVec_Vec3s()
+        points.extend(list(self.vertices))
+        return coal.Convex.convexHull(points, True, "Qt"), coal.Transform3s()
 
 
-def circle_points(
-    centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int
-) -> np.ndarray:
+def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int) -> np.ndarray:
     """c_k + r_k (cos(2 pi i / count) x_k + sin(2 pi i / count) y_k), x_k and y_k normal to axis k.
 
     Parameters

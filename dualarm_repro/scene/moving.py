@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
+from .quantities import array_of
 from .shapes import Box, Capsule, Sphere
 
 
@@ -24,14 +25,13 @@ class _Track:
     """Samples over an increasing index."""
 
     def __init__(self, source: str, count: int, index: ArrayLike | None) -> None:
+        if count == 0:
+            raise InputError(source, "samples", count, "at least one")
         expected = f"{count} finite numbers in increasing order"
-        try:
-            self.index = np.arange(count, dtype=float) if index is None else np.array(index, float)
-        except (TypeError, ValueError):
-            raise InputError(source, "index", index, expected) from None
-        finite = self.index.shape == (count,) and np.isfinite(self.index).all()
-        if count == 0 or not finite or not (np.diff(self.index) > 0).all():
-            raise InputError(source, "index", index, expected if count else "at least one sample")
+        index = np.arange(count) if index is None else index
+        self.index = array_of(source, "index", index, (count,), expected)
+        if not (np.diff(self.index) > 0).all():
+            raise InputError(source, "index", index, expected)
 
     def _locate(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Sample before each time and the fraction of the way to the next, held outside."""
@@ -58,12 +58,9 @@ class JointPath(_Track):
 
     def __init__(self, configurations: ArrayLike, index: ArrayLike | None = None) -> None:
         expected = "finite joint vectors (M, nq)"
-        try:
-            self.configurations = np.array(configurations, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError("JointPath", "configurations", configurations, expected) from None
-        if self.configurations.ndim != 2 or not np.isfinite(self.configurations).all():
-            raise InputError("JointPath", "configurations", configurations, expected)
+        self.configurations = array_of(
+            "JointPath", "configurations", configurations, (None, None), expected
+        )
         super().__init__("JointPath", len(self.configurations), index)
 
     def at(self, time: np.ndarray) -> np.ndarray:
@@ -90,10 +87,12 @@ class PosePath(_Track):
 
     def __init__(self, poses: Sequence[pin.SE3], index: ArrayLike | None = None) -> None:
         super().__init__("PosePath", len(poses), index)
-        self.translation = np.array([pose.translation for pose in poses])
-        self.rotation = np.array([pose.rotation for pose in poses])
-        if not (np.isfinite(self.translation).all() and np.isfinite(self.rotation).all()):
-            raise InputError("PosePath", "poses", poses, "finite poses")
+        self.translation = array_of(
+            "PosePath", "poses", [pose.translation for pose in poses], (None, 3), "finite poses"
+        )
+        self.rotation = array_of(
+            "PosePath", "poses", [pose.rotation for pose in poses], (None, 3, 3), "finite poses"
+        )
         relative = self.rotation[:-1].transpose(0, 2, 1) @ self.rotation[1:]
         self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])

@@ -1,4 +1,4 @@
-"""Signed distances of many capsules to capsules, boxes and half-spaces, for many configurations.
+"""Signed distances of many capsules to other bodies, for many configurations.
 
 Row n of every array is one configuration; ``pairs`` (K, 2) names rows of the two sorts of bodies.
 Each kernel fills ``distance`` (N, K) and, unless it is empty, ``witness`` (N, K, 3, 3) with the
@@ -9,14 +9,14 @@ the radii, also for cores that overlap.
 
 from __future__ import annotations
 
-from numba import njit
-
-from .boxes import into_box, out_of_box, segment_box, segment_box_distance
+from .boxes import segment_box, segment_box_distance
+from .compiled import kernel
+from .polytope import segment_polytope
 from .segments import closest_parameters, segment_segment
-from .vectors import along, dot, minus, rotated, scaled, vector
+from .vectors import along, dot, into_frame, minus, out_of_frame, rotated, scaled, vector
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _write(witness, p, q, normal):
     for k in range(3):
         witness[0, k] = p[k]
@@ -24,7 +24,7 @@ def _write(witness, p, q, normal):
         witness[2, k] = normal[k]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def capsules_capsules(ends, radius, pairs, distance, witness):
     """d = |core distance| - r_a - r_b; ``ends`` (N, C, 2, 3), ``radius`` (C,)."""
     for n in range(len(distance)):
@@ -43,25 +43,45 @@ def capsules_capsules(ends, radius, pairs, distance, witness):
             distance[n, k] = gap - radius[i] - radius[j]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def capsules_boxes(ends, radius, poses, half, pairs, distance, witness):
     """d = signed core distance - r; ``poses`` (N, B, 3, 4) and half edges ``half`` (B, 3)."""
     for n in range(len(distance)):
         for k in range(len(pairs)):
             i, j = pairs[k]
             pose, h = poses[n, j], vector(half[j])
-            a = into_box(pose, vector(ends[n, i, 0]))
-            u = minus(into_box(pose, vector(ends[n, i, 1])), a)
+            a = into_frame(pose, vector(ends[n, i, 0]))
+            u = minus(into_frame(pose, vector(ends[n, i, 1])), a)
             if witness.size:
                 gap, p, q, normal = segment_box(a, u, h)
                 p = along(p, radius[i], normal)
-                _write(witness[n, k], out_of_box(pose, p), out_of_box(pose, q), rotated(pose, normal))
+                p, q, normal = out_of_frame(pose, p), out_of_frame(pose, q), rotated(pose, normal)
+                _write(witness[n, k], p, q, normal)
             else:
                 gap = segment_box_distance(a, u, h)
             distance[n, k] = gap - radius[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
+def capsules_hull(ends, radius, poses, polytope, hull, pairs, distance, witness):
+    """d = signed core distance - r; fills the pairs with one hull, row ``hull`` of ``poses``."""
+    for n in range(len(distance)):
+        for k in range(len(pairs)):
+            i, j = pairs[k]
+            if j != hull:
+                continue
+            pose = poses[n, j]
+            a = into_frame(pose, vector(ends[n, i, 0]))
+            u = minus(into_frame(pose, vector(ends[n, i, 1])), a)
+            gap, p, q, normal = segment_polytope(a, u, polytope)
+            distance[n, k] = gap - radius[i]
+            if witness.size:
+                p = along(p, radius[i], normal)
+                p, q, normal = out_of_frame(pose, p), out_of_frame(pose, q), rotated(pose, normal)
+                _write(witness[n, k], p, q, normal)
+
+
+@kernel
 def capsules_planes(ends, radius, planes, pairs, distance, witness):
     """d = min(n . a, n . b) - offset - r; ``planes`` (H, 4) rows of normal and offset.
 

@@ -72,15 +72,13 @@ def find_pairs(
     overlapping = {placed.name: always_overlapping(placed.arm) for placed in arms}
 
     def watched(a: Body, b: Body) -> bool:
-        if a.still and b.still or any(_joins((a, b), *names) for names in exempt):
+        if (a.still and b.still) or any(_joins((a, b), *names) for names in exempt):
             return False
         if a.owner != b.owner:
             return True
-        return self_collision and abs(a.joint - b.joint) > 1 and not overlapping[a.owner][
-            a.row - first[a.owner], b.row - first[a.owner]
-        ]
+        apart = abs(a.joint - b.joint) > 1 and not overlapping[a.owner][a.link, b.link]
+        return self_collision and apart
 
-    first = {owner: min(bodies.rows(owner, "capsule"), default=0) for owner in overlapping}
     links = [body for body in bodies.all if body.joint is not None]
     pairs = [
         (a, b)

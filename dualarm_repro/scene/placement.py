@@ -14,32 +14,26 @@ from .scene import Scene
 
 
 class Placed(NamedTuple):
-    """World coordinates: ``cores`` (N, C, 2, 3), ``boxes`` (N, B, 3, 4), ``hulls`` (N, H, 3, 4),
-    and the link frames (N, nq + 1, 3, 4) of every controlled arm."""
+    """World coordinates: ``cores`` (N, C, 2, 3), ``boxes`` (N, B, 3, 4), ``hulls`` (N, H, 3, 4)."""
 
     cores: np.ndarray
     boxes: np.ndarray
     hulls: np.ndarray
-    frames: dict[str, np.ndarray]
 
 
 def place(scene: Scene, q: np.ndarray, time: np.ndarray) -> Placed:
     """Poses for configurations ``q`` (N, nq) and times (N,)."""
     bodies, count = scene.bodies, len(q)
-    cores = np.tile(bodies.cores, (count, 1, 1, 1))
-    boxes = np.tile(bodies.boxes, (count, 1, 1, 1))
+    cores = np.repeat(bodies.cores[np.newaxis], count, axis=0)
+    boxes = np.repeat(bodies.boxes[np.newaxis], count, axis=0)
     hulls = np.tile(np.eye(3, 4), (count, len(bodies.hulls), 1, 1))
-    frames = {}
-    for placed in scene.arms:
-        columns = scene.columns[placed.name]
-        found = _frames(placed.arm, placed.placement, q[:, columns])
-        _place_links(placed.arm, found, cores, bodies.rows(placed.name, "capsule"))
-        frames[placed.name] = found
+    for placed, frames in zip(scene.arms, arm_frames(scene, q), strict=True):
+        _place_links(placed.arm, frames, cores, bodies.rows(placed.name, "capsule"))
     for name, mover in scene.moving.items():
         rows = bodies.rows(name, "capsule")
         if isinstance(mover, MovingArm):
-            found = _frames(mover.arm, mover.placement, mover.path.at(time))
-            _place_links(mover.arm, found, cores, rows)
+            frames = _frames(mover.arm, mover.placement, mover.path.at(time))
+            _place_links(mover.arm, frames, cores, rows)
             continue
         pose = mover.path.at(time)
         rotation, origin = pose[:, :, :3], pose[:, :, 3]
@@ -51,7 +45,15 @@ def place(scene: Scene, q: np.ndarray, time: np.ndarray) -> Placed:
             boxes[:, row, :, 3] += origin
         for row in bodies.rows(name, "hull"):
             hulls[:, row] = pose
-    return Placed(cores, boxes, hulls, frames)
+    return Placed(cores, boxes, hulls)
+
+
+def arm_frames(scene: Scene, q: np.ndarray) -> list[np.ndarray]:
+    """Link frames (N, nq_arm + 1, 3, 4) of every controlled arm for q (N, nq)."""
+    return [
+        _frames(placed.arm, placed.placement, q[:, scene.columns[placed.name]])
+        for placed in scene.arms
+    ]
 
 
 def _frames(arm: Arm, base: pin.SE3, q: np.ndarray) -> np.ndarray:

@@ -10,30 +10,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from .boxes import excess, into_box, shortest_exit
+from .boxes import excess, shortest_exit
+from .compiled import kernel
 from .hull import ConvexHull
+from .polytope import segment_polytope
 from .segments import CORES_MEET, projected
 from .shapes import Box, HalfSpace, Shape
-from .vectors import along, dot, minus, perpendicular, rotated, scaled, vector
+from .vectors import along, dot, into_frame, minus, perpendicular, rotated, scaled, vector
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def point_capsule(p, a, u, radius):
-    """d = |p - a - s u| - r with s the projection to the core; on the core, a normal of the core."""
-    gap = minus(p, along(a, projected(p, a, u), u))
+    """d = |p - a - s u| - r, s the projection to the core; on the core, one of its normals."""
+    gap = minus(p, along(a, projected(p, a, u, dot(u, u)), u))
     distance = dot(gap, gap) ** 0.5
     normal = scaled(1.0 / distance, gap) if distance > CORES_MEET else perpendicular(u)
     return distance - radius, normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def point_box(p, pose, h):
     """d = |e| with the excess e outside, minus the depth below the nearest face inside."""
-    p = into_box(pose, p)
+    p = into_frame(pose, p)
     e = excess(p, h)
     distance = dot(e, e) ** 0.5
     if distance > CORES_MEET:
@@ -42,7 +43,7 @@ def point_box(p, pose, h):
     return -depth, rotated(pose, direction)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def to_capsule(points, core, radius, distance, gradient):
     """:func:`point_capsule` for the rows of ``points`` (K, 3)."""
     a = vector(core[0])
@@ -52,13 +53,22 @@ def to_capsule(points, core, radius, distance, gradient):
         gradient[k, 0], gradient[k, 1], gradient[k, 2] = normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def to_box(points, pose, half, distance, gradient):
     """:func:`point_box` for the rows of ``points`` (K, 3)."""
     h = vector(half)
     for k in range(len(points)):
         distance[k], normal = point_box(vector(points[k]), pose, h)
         gradient[k, 0], gradient[k, 1], gradient[k, 2] = normal
+
+
+@kernel
+def to_hull(points, polytope, distance, gradient):
+    """Signed distances to a convex polytope for the rows of ``points`` (K, 3)."""
+    for k in range(len(points)):
+        p = vector(points[k])
+        distance[k], _, _, inward = segment_polytope(p, (0.0, 0.0, 0.0), polytope)
+        gradient[k, 0], gradient[k, 1], gradient[k, 2] = scaled(-1.0, inward)
 
 
 def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndarray, np.ndarray]:
@@ -96,7 +106,7 @@ def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndar
             case HalfSpace():
                 d[:], g[:] = rows @ shape.normal - shape.offset, shape.normal
             case ConvexHull():
-                d[:], g[:] = shape.point_distances(rows)
+                to_hull(rows, shape.polytope, d, g)
             case _:
                 to_capsule(rows, shape.core, shape.radius, d, g)
     leading = points.shape[:-1]

@@ -1,4 +1,4 @@
-"""Where the links of an arm are, for many configurations: frames, capsule cores, joint screws."""
+"""Where the links of an arm are, for many configurations: joint frames and capsule cores."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
-from numba import njit
 
 from ..arms.arm import Arm
+from .compiled import kernel
 
 
 class Links(NamedTuple):
@@ -45,7 +45,7 @@ def links_of(arm: Arm) -> Links:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def link_frames(chain, base, q):
     """Frames of the base and of the joints, F_0 = base, F_j = F_(j-1) C_(j-1) Rz(q_j).
 
@@ -78,7 +78,7 @@ def link_frames(chain, base, q):
     return frames
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def place_cores(frames, joint, local, ends):
     """ends (N, C, 2, 3) = F_joint local, for frames (N, J, 3, 4) and local cores (C, 2, 3)."""
     for n in range(len(frames)):
@@ -88,9 +88,3 @@ def place_cores(frames, joint, local, ends):
                 x, y, z = local[c, k]
                 for r in range(3):
                     ends[n, c, k, r] = F[r, 0] * x + F[r, 1] * y + F[r, 2] * z + F[r, 3]
-
-
-def joint_screws(frames: np.ndarray) -> np.ndarray:
-    """Columns [o_j x z_j; z_j] of the Jacobian at the world origin, (N, n+1, 3, 4) -> (N, 6, n)."""
-    axes, origins = frames[:, 1:, :, 2], frames[:, 1:, :, 3]
-    return np.concatenate([np.cross(origins, axes), axes], axis=2).transpose(0, 2, 1)

@@ -13,11 +13,12 @@ def vector3(source: str, name: str, value: ArrayLike) -> np.ndarray:
     return array_of(source, name, value, (3,), "three finite numbers")
 
 
-def positive(source: str, name: str, value: float) -> float:
+def positive(source: str, name: str, value: float, unit: str = "m") -> float:
     """A positive finite number."""
-    number = array_of(source, name, value, (), "a positive finite number [m]")
+    expected = f"a positive finite number [{unit}]"
+    number = array_of(source, name, value, (), expected)
     if not number > 0:
-        raise InputError(source, name, value, "a positive finite number [m]")
+        raise InputError(source, name, value, expected)
     return float(number)
 
 
@@ -38,16 +39,23 @@ def unit3(source: str, name: str, value: ArrayLike) -> np.ndarray:
     return frozen(direction / length)
 
 
-def array_of(source: str, name: str, value: ArrayLike, shape: tuple, expected: str) -> np.ndarray:
+def array_of(
+    source: str, name: str, value: ArrayLike, shape: tuple[int | None, ...], expected: str
+) -> np.ndarray:
+    """Finite numbers of a shape as a read-only copy; None stands for any length."""
     try:
         array = np.array(value, dtype=float)
     except (TypeError, ValueError):
         raise InputError(source, name, value, expected) from None
-    if array.shape != shape or not np.isfinite(array).all():
+    fits = len(shape) == array.ndim and all(
+        wanted in (None, length) for wanted, length in zip(shape, array.shape, strict=True)
+    )
+    if not fits or not np.isfinite(array).all():
         raise InputError(source, name, value, expected)
     return frozen(array)
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
+    """The array, made read-only."""
     array.flags.writeable = False
     return array

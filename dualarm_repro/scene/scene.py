@@ -88,6 +88,17 @@ class Scene:
             for placed, end in zip(self.arms, ends, strict=True)
         }
 
+    @cached_property
+    def support(self) -> np.ndarray:
+        """(P, nq): +1 where a joint moves only the second body of a pair, -1 only the first."""
+        sign = np.zeros((len(self.pairs), self.nq))
+        for row, pair in zip(sign, self.pairs.bodies, strict=True):
+            for body, value in zip(pair, (-1.0, 1.0), strict=True):
+                if body.joint is not None:
+                    start = self.columns[body.owner].start
+                    row[start : start + body.joint] += value
+        return sign
+
     def stack(self, **q: ArrayLike) -> np.ndarray:
         """Joint vectors of all arms, given by name, as one q: (nq,), or (N, nq) from rows.
 

@@ -8,8 +8,8 @@ capsules is the sum of the radii: the signed distance is |core distance| - r_a -
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from .compiled import kernel
 from .vectors import along, cross, dot, minus, perpendicular, scaled
 
 # Cores nearer than this [m] meet: the difference of the witness points is noise, no direction.
@@ -18,46 +18,38 @@ CORES_MEET = 1e-10
 PARALLEL = 1e-20
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def clamped(s, low, high):
     """s limited to [low, high]."""
     return min(max(s, low), high)
 
 
-@njit(cache=True, error_model="numpy")
-def projected(p, a, u):
-    """Parameter in [0, 1] of the point of the segment a + s u nearest to p (0 if u = 0)."""
-    uu = dot(u, u)
-    return clamped(dot(minus(p, a), u) / uu, 0.0, 1.0) if uu > 0.0 else 0.0
+@kernel
+def projected(p, a, u, uu):
+    """Parameter in [0, 1] of the point of the segment a + s u nearest to p; uu = u . u."""
+    return clamped(dot(minus(p, a), u) / (uu if uu > 0.0 else 1.0), 0.0, 1.0)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def closest_parameters(a, u, b, v):
-    """min |a + s u - b - t v| over s, t in [0, 1].
+    """argmin |a + s u - b - t v| over s, t in [0, 1].
 
-    The stationary point of the lines, s = det(b - a, v, u x v) / |u x v|^2, is clamped to one
-    segment, projected to the other, and where that projection is clamped back again: exact, since
-    the squared distance is convex. Determinants keep the parameters accurate for nearly parallel
-    segments. For parallel ones the middle of the common stretch is taken, whichever comes first.
+    The stationary point of the lines, s = det(b - a, v, u x v) / |u x v|^2, is clamped to its
+    segment, the point there projected to the other segment and that one back: exact, since the
+    squared distance is convex, and without branches. Determinants keep the parameters accurate for
+    nearly parallel segments. For parallel ones the middle of the common stretch is taken.
     """
     w = cross(u, v)
-    ww = dot(w, w)
-    if ww > PARALLEL * dot(u, u) * dot(v, v):
+    uu, vv, ww = dot(u, u), dot(v, v), dot(w, w)
+    if ww > PARALLEL * uu * vv:
         s = clamped(dot(cross(minus(b, a), v), w) / ww, 0.0, 1.0)
     else:
-        s = 0.5 * (projected(b, a, u) + projected(along(b, 1.0, v), a, u))
-    vv = dot(v, v)
-    if vv == 0.0:
-        return s, 0.0
-    t = dot(minus(along(a, s, u), b), v) / vv
-    if t < 0.0:
-        return projected(b, a, u), 0.0
-    if t > 1.0:
-        return projected(along(b, 1.0, v), a, u), 1.0
-    return s, t
+        s = 0.5 * (projected(b, a, u, uu) + projected(along(b, 1.0, v), a, u, uu))
+    t = projected(along(a, s, u), b, v, vv)
+    return projected(along(b, t, v), a, u, uu), t
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def segment_segment(a, u, b, v):
     """Distance of the segments a + [0, 1] u and b + [0, 1] v, their nearest points, the normal.
 

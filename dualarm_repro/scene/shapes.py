@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .hull import ConvexHull
-from .quantities import array_of, frozen, positive, rotation3, unit3, vector3
+from .quantities import array_of, positive, rotation3, unit3, vector3
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class Sphere:
 
 @dataclass(frozen=True, eq=False)
 class Capsule:
-    """Points within ``radius`` of the segment from ``start`` to ``end``, metres; length 0 is allowed."""
+    """Points within ``radius`` of the segment ``start`` to ``end`` [m], which may have length 0."""
 
     start: ArrayLike
     end: ArrayLike

@@ -45,7 +45,7 @@ def card_html(made: dict[str, Any]) -> str:
         parts.append(f"<p>Measured here: {escape(name)} = {short(value)}</p>")
     parts += [
         _section("Assumptions", [_assumption(entry) for entry in made["assumptions"]]),
-        _section("Errata", [_erratum(entry) for entry in made["errata"]]),
+        _section("Errata", [erratum_html(entry) for entry in made["errata"]]),
         _section("Not printed", [escape(datum) for datum in made["missing"]]),
         _section("Robustness", [robustness_text(made["robustness"])] if made["robustness"] else []),
         _section("Note", [escape(made["notes"])] if made["notes"] else []),
@@ -122,7 +122,8 @@ def _assumption(entry: dict[str, Any]) -> str:
     )
 
 
-def _erratum(entry: dict[str, Any]) -> str:
+def erratum_html(entry: dict[str, Any]) -> str:
+    """One erratum: place, problem, resolution and the outcome of its proof."""
     proof = entry["proof"]
     if proof is None:
         status = f"No machine proof: {escape(entry['no_proof'])}"

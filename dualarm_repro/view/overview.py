@@ -10,6 +10,7 @@ import pandas as pd
 from ..ledger import Registry, Verdict, record
 from ..ledger.registry import Checker
 from .badge import badge
+from .card import legend_html
 from .page import Page
 
 _SCRIPT = """
@@ -60,6 +61,11 @@ def counts_page(registry: Registry) -> Page:
         '<div class="ledger-scroll"><table class="ledger-counts" id="verdict-counts">'
         f"<tr><th>document</th>{head}</tr>{rows}</table></div>"
     )
+
+
+def legend_page() -> Page:
+    """All verdicts with their meanings."""
+    return Page(legend_html())
 
 
 def ledger_page(registry: Registry) -> Page:

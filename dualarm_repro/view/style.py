@@ -52,5 +52,6 @@ def axes_3d(
     axes = [figure.add_subplot(1, columns, k + 1, projection="3d") for k in range(columns)]
     for ax in axes:
         ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+        ax.locator_params(nbins=5)
         ax.view_init(**({"elev": 22, "azim": -60} | view))
     return figure, axes[0] if columns == 1 else axes

@@ -10,19 +10,30 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role, Rounds
-from .printed_chain import LINKS, equal, joint_variable, link_matrix, printed_parameters, product
-from .printed_chain import substituted
+from ..wording import point
+from .printed_chain import (
+    LINKS,
+    equal,
+    joint_variable,
+    link_matrix,
+    printed_parameters,
+    product,
+    substituted,
+)
+from .readings import READINGS, reach
 from .scenario import MASTER_GOAL, MASTER_START, SEED
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
+#: A printed "0" would else stand for anything below one half.
+_EXACT = {"tolerance": 1e-12, "reason": "parameters of one chain, exact"}
 
 
 @checks(
     "xue.tab01",
     rules=[
-        Rounds(key="d", to="d", label="column d equals what matrices (2)-(7) contain"),
-        Rounds(key="alpha", to="alpha", label="column alpha equals what matrices (2)-(7) contain"),
-        Rounds(key="a_one_row_up", to="a", label="column a is that of the matrices, one row too high"),
+        Rounds(key="d", to="d", label="column d is that of matrices (2)-(7)", **_EXACT),
+        Rounds(key="alpha", to="alpha", label="column alpha is that of the matrices", **_EXACT),
+        Rounds(key="a_one_row_up", to="a", label="column a is theirs, one row too high", **_EXACT),
         Bounded(
             key="goal_distance",
             low=0.01,
@@ -53,12 +64,15 @@ def table_1(assumed: Assumed) -> Result:
             "goal_matrices": goals["es165d"].tolist(),
             "goal_table": goals["es165d-table1"].tolist(),
             "goal_distance": distance,
+            "reach": {reading: reach(reading) for reading in READINGS},
         },
         table=table,
         caption=(
             "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row too "
             f"high under its own header. At the master's goal the two readings put the flange "
-            f"{distance:.4f} m apart, so the document contradicts itself."
+            f"{distance:.4f} m apart, so the document contradicts itself. Reach from the base: "
+            f"{reach('matrices'):.3f} m by the matrices, {reach('table'):.3f} m by the table, "
+            f"{reach('published'):.3f} m for the published robot, base height included."
         ),
     )
 
@@ -152,7 +166,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
             "The product of the six printed matrices, evaluated in symbols, agrees with Pinocchio and "
             f"with the batch kernel on {len(q)} random configurations to "
             f"{abs(symbolic - pinocchio).max():.1e}. The master's flange goes from "
-            f"({_point(start)}) m to ({_point(goal)}) m."
+            f"({point(start)}) m to ({point(goal)}) m."
         ),
     )
 
@@ -185,7 +199,3 @@ def _largest_difference_to_pinocchio(k: int) -> float:
         pin.forwardKinematics(arm.model, data, q)
         largest = max(largest, float(abs(data.liMi[k].homogeneous - printed(angle)).max()))
     return largest
-
-
-def _point(values: np.ndarray) -> str:
-    return ", ".join(f"{value + 0.0:.4f}" for value in values.round(12))

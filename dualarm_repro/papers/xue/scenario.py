@@ -15,6 +15,11 @@ from ...datafiles import data_path
 #: Start and goal angles of the master [rad], section 3.3.
 MASTER_START = np.zeros(6)
 MASTER_GOAL = np.pi * np.array([-1 / 2, -1 / 8, -1 / 2, 1 / 2, 1 / 4, 0])
+#: Start and End of the slave [m], section 3.3; the frame they are given in is not printed.
+SLAVE_START = np.array([0.75, 0.35, 0.5])
+SLAVE_END = np.array([-0.45, 0.8, 0.15])
+#: Gains k_a, k_r, k_w (also k_av) and the range d_0 [m], section 3.3.
+GAINS = {"k_a": 3.0, "k_w": 2.0, "k_r": 1.0, "d_0": 0.3}
 #: Random configurations of the master's workspace, section 3.2.
 WORKSPACE_POINTS = 100_000
 SEED = 20200344

@@ -9,9 +9,20 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result
-from .chain import _point
-from .printed_chain import LINKS, equal, joint_variable, link_matrix, product
-from .scenario import MASTER_GOAL, MASTER_START, SEED
+from ..wording import point
+from .printed_chain import (
+    A,
+    ALPHA,
+    D,
+    LINKS,
+    THETA,
+    equal,
+    general_matrix,
+    joint_variable,
+    link_matrix,
+    product,
+)
+from .scenario import MASTER_GOAL, MASTER_START, SEED, matrices_robot
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
 
@@ -62,7 +73,7 @@ def mirror(assumed: Assumed) -> Result:
         caption=(
             "Negating alpha and theta is exactly the reflection in the xz plane of the base, link by "
             f"link in symbols and to {difference:.1e} between the two models. At the mirrored goal "
-            f"the slave's flange is at ({_point(goal)}) m."
+            f"the slave's flange is at ({point(goal)}) m."
         ),
     )
 
@@ -79,7 +90,7 @@ def master_start(assumed: Assumed) -> Result:
     return Result(
         obtained={"q": MASTER_START.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
         caption=(
-            f"The start is used as printed; its flange is at ({_point(tcp)}) m. Axis L of the real "
+            f"The start is used as printed; its flange is at ({point(tcp)}) m. Axis L of the real "
             f"robot would be {excess:.1f} deg beyond its range."
         ),
     )
@@ -97,7 +108,7 @@ def master_goal(assumed: Assumed) -> Result:
     return Result(
         obtained={"q": MASTER_GOAL.tolist(), "tcp": tcp.tolist(), "within_limits": inside},
         caption=(
-            f"The goal is used as printed; its flange is at ({_point(tcp)}) m, "
+            f"The goal is used as printed; its flange is at ({point(tcp)}) m, "
             f"{'inside' if inside else 'outside'} the joint ranges of the real robot."
         ),
     )
@@ -105,9 +116,6 @@ def master_goal(assumed: Assumed) -> Result:
 
 def _negated(k: int) -> sp.Matrix:
     """Printed link transform with alpha and theta negated, composed anew from its parameters."""
-    from .printed_chain import A, ALPHA, D, THETA, general_matrix
-    from .scenario import matrices_robot
-
     joint = matrices_robot().joints[k - 1]
     twist = sp.Rational(joint.alpha.coefficient) * (sp.pi if joint.alpha.of_pi else 1)
     values = {A: sp.Rational(repr(joint.a)), ALPHA: -twist, D: sp.Rational(repr(joint.d))}
@@ -123,9 +131,9 @@ def _axis_spread() -> float:
     largest = 0.0
     for q in arm.random_configurations(1000, np.random.default_rng(SEED)):
         pin.forwardKinematics(arm.model, data, q)
-        point = data.oMi[5].translation
+        wrist = data.oMi[5].translation
         for joint in (4, 5, 6):
             placement = data.oMi[joint]
-            offset = np.cross(point - placement.translation, placement.rotation[:, 2])
+            offset = np.cross(wrist - placement.translation, placement.rotation[:, 2])
             largest = max(largest, float(np.linalg.norm(offset)))
     return largest

@@ -1,0 +1,114 @@
+"""Kinematics of one arm: forward, Jacobian, manipulability, inverse, workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib.util import find_spec
+
+import numpy as np
+import pinocchio as pin
+from timing import OURS, Row, timed
+
+from dualarm_repro import load_arm
+from dualarm_repro.arms import Arm
+from dualarm_repro.arms.dh_model import FLANGE
+from dualarm_repro.arms.workspace import sample_workspace
+
+NAME = "irb120"
+BATCH, LOOP = 100_000, 2_000
+POSE, JACOBIAN = "pose of the flange", "Jacobian and manipulability"
+INVERSE, CLOUD = "inverse kinematics, all branches", "cloud of 100 000 flange positions"
+
+
+def measure() -> Iterator[Row]:
+    """Rows of this suite; peers that are not installed are left out."""
+    arm, rng = load_arm(NAME), np.random.default_rng(0)
+    q = arm.random_configurations(BATCH, rng)
+    few = q[:LOOP]
+    poses = arm.fk(few)
+    yield timed(POSE, OURS, lambda: arm.fk(q), BATCH)
+    yield timed(POSE, f"{OURS}, one at a time", lambda: [arm.fk(row) for row in few], LOOP)
+    yield timed(JACOBIAN, OURS, lambda: (arm.jacobian(q), arm.manipulability(q)), BATCH)
+    yield from _pinocchio(arm, few)
+    yield timed(INVERSE, OURS, lambda: arm.ik_branches(poses), LOOP)
+    yield timed(INVERSE, f"{OURS}, one at a time", lambda: [arm.ik(T) for T in poses], LOOP)
+    if find_spec("roboticstoolbox"):
+        yield from _roboticstoolbox(few)
+    if find_spec("eaik"):
+        yield from _eaik(arm, poses)
+    yield timed(CLOUD, OURS, lambda: sample_workspace(arm, BATCH, rng), 1)
+    yield timed(CLOUD, "pinocchio, Python loop", _cloud_by_loop(arm, rng), 1)
+
+
+def _pinocchio(arm: Arm, q: np.ndarray) -> Iterator[Row]:
+    model, data, flange = arm.model, arm.model.createData(), arm.model.getFrameId(FLANGE)
+    axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+
+    def pose() -> None:
+        for row in q:
+            pin.forwardKinematics(model, data, row)
+            pin.updateFramePlacement(model, data, flange)
+
+    def jacobian() -> None:
+        for row in q:
+            abs(np.linalg.det(pin.computeFrameJacobian(model, data, row, flange, axes)))
+
+    yield timed(POSE, "pinocchio, Python loop", pose, len(q))
+    yield timed(JACOBIAN, "pinocchio, Python loop", jacobian, len(q))
+
+
+def _roboticstoolbox(q: np.ndarray) -> Iterator[Row]:
+    import roboticstoolbox as rtb
+
+    from dualarm_repro.arms.robot_file import load_robot_file
+    from dualarm_repro.datafiles import data_path
+
+    table = load_robot_file(data_path("robots", f"{NAME}.yaml"))
+    links = [
+        rtb.RevoluteDH(d=j.d, a=j.a, alpha=float(j.alpha), offset=float(j.offset))
+        for j in table.joints
+    ]
+    robot = rtb.DHRobot(links)
+    ets = robot.ets()
+    np.testing.assert_allclose(ets.eval(q[0]), load_arm(NAME).fk(q[0]), atol=1e-9)
+    yield timed(POSE, "roboticstoolbox ETS", lambda: [ets.eval(row) for row in q], len(q))
+    yield timed(
+        JACOBIAN,
+        "roboticstoolbox ETS",
+        lambda: [abs(np.linalg.det(ets.jacob0(row))) for row in q],
+        len(q),
+    )
+
+
+def _eaik(arm: Arm, poses: np.ndarray) -> Iterator[Row]:
+    from eaik.IK_HP import HPRobot
+
+    zero, data = np.zeros(arm.nq), arm.model.createData()
+    pin.forwardKinematics(arm.model, data, zero)
+    axes = np.array([frame.rotation[:, 2] for frame in list(data.oMi)[1:]])
+    steps = np.diff(arm.joint_positions(zero), axis=0, prepend=np.zeros((1, 3)))
+    robot = HPRobot(axes, steps)
+    # Its flange frame is parallel to the base at q = 0.
+    targets = poses.copy()
+    targets[:, :3, :3] = poses[:, :3, :3] @ arm.fk(zero)[:3, :3].T
+    found = robot.IK(targets[0]).Q
+    np.testing.assert_allclose(
+        arm.fk(found), np.broadcast_to(poses[0], (len(found), 4, 4)), atol=1e-6
+    )
+    yield timed(INVERSE, "EAIK", lambda: robot.IK_batched(list(targets)), len(targets))
+    yield timed(
+        INVERSE, "EAIK, one at a time", lambda: [robot.IK(T) for T in targets], len(targets)
+    )
+
+
+def _cloud_by_loop(arm: Arm, rng: np.random.Generator) -> Callable[[], np.ndarray]:
+    model, data, flange = arm.model, arm.model.createData(), arm.model.getFrameId(FLANGE)
+
+    def cloud() -> np.ndarray:
+        points = np.empty((BATCH, 3))
+        for k, row in enumerate(arm.random_configurations(BATCH, rng)):
+            pin.forwardKinematics(model, data, row)
+            points[k] = pin.updateFramePlacement(model, data, flange).translation
+        return points
+
+    return cloud

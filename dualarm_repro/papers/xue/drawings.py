@@ -1,0 +1,180 @@
+"""Figures 1, 2 and 3 of `xue`: dimensions, link frames, both arms."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+
+from ...arms import load_arm
+from ...ledger import REGISTRY, Assumed, Bounded, NeedsPrinted, Result
+from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
+from ...view.scene3d import Scene3D
+from ...view.style import MASTER, SLAVE
+from ..wording import point
+from .chain_errata import SHARED
+from .readings import lengths
+from .scenario import MASTER_GOAL, MASTER_START, base_placements
+
+checks = partial(REGISTRY.checks, page="xue/kinematics")
+
+
+@checks(
+    "xue.fig01",
+    rules=[
+        Bounded(
+            key="shared_difference",
+            high=1e-12,
+            label="a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
+        ),
+        NeedsPrinted(key="dimensions", label="the dimensions inside the drawing"),
+    ],
+)
+def dimensions(assumed: Assumed) -> Result:
+    """Side view of the published robot, with the lengths the matrices share with it."""
+    printed, published = lengths("matrices"), lengths("published")
+    differences = {name: published[name] - printed[name] for name in printed}
+    table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
+    return Result(
+        obtained={
+            "published": published,
+            "matrices": printed,
+            "shared_difference": max(abs(differences[name]) for name in SHARED),
+        },
+        table=table.reset_index(),
+        caption=(
+            "Published ES165D in the maker's upright posture. The matrices share "
+            f"{', '.join(SHARED)} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
+            f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The text "
+            "edition carries no number of the drawing, so agreement with it cannot be decided."
+        ),
+        alt=(
+            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist to "
+            "the flange, with six dimension lines in millimetres."
+        ),
+        figure=lambda: _draw_dimensions(published),
+    )
+
+
+@checks(
+    "xue.fig02",
+    rules=[
+        Bounded(
+            key="axis_error",
+            high=1e-12,
+            label="each z axis is the axis its joint turns about, to",
+        ),
+        NeedsPrinted(key="drawing", label="the drawing of the frames"),
+    ],
+)
+def link_frames(assumed: Assumed) -> Result:
+    """Frames 0 to 6 of the matrices at q = 0."""
+    arm = load_arm("es165d")
+    frames = np.array([np.eye(4), *_joint_frames(MASTER_START)])
+    turned = [_joint_frames(_unit(k, 0.7))[k] for k in range(arm.nq)]
+    error = max(
+        float(abs(pin.log3(frames[k + 1, :3, :3].T @ turned[k][:3, :3]) - [0, 0, 0.7]).max())
+        for k in range(arm.nq)
+    )
+    table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=_frame_columns())
+    table.insert(0, "frame", range(7))
+    return Result(
+        obtained={"origins": frames[:, :3, 3].tolist(), "axis_error": error},
+        table=table,
+        caption=(
+            "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm hangs "
+            f"down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common origin: "
+            f"{_common_origins(frames)}. The drawing is not in the text edition."
+        ),
+        alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
+        figure=lambda: frames_figure(frames, 0.25),
+    )
+
+
+@checks(
+    "xue.fig03",
+    rules=[
+        Bounded(
+            key="mirror_error", high=1e-12, label="the slave is the reflection of the master, to [m]"
+        ),
+        NeedsPrinted(key="bases", label="the base poses"),
+    ],
+)
+def both_arms(assumed: Assumed) -> Result:
+    """Master and mirrored slave in one posture, their bases apart along y."""
+    distance = assumed["base_distance"]
+    posture = assumed["display_posture"]
+    q = {"start": MASTER_START, "goal": MASTER_GOAL}[posture]
+    master, slave = load_arm("es165d"), load_arm("es165d-slave")
+    left, right = base_placements(distance)
+    arms = {"master": (master, q, left), "slave": (slave, -q, right)}
+    flip = np.array([1.0, -1.0, 1.0])
+    tips = {name: place.act(arm.fk(pose)[:3, 3]) for name, (arm, pose, place) in arms.items()}
+    error = float(abs(tips["master"] * flip - tips["slave"]).max())
+
+    def scene() -> Scene3D:
+        made = Scene3D(f"Both arms of the document at the printed {posture}.", camera=(6.0, -3.0, 2.5))
+        made.add_arm("master", master, q, left, MASTER)
+        made.add_arm("slave", slave, -q, right, SLAVE)
+        return made
+
+    return Result(
+        obtained={"flanges": {k: v.tolist() for k, v in tips.items()}, "mirror_error": error},
+        caption=(
+            f"Master and mirrored slave at the printed {posture}, bases {distance:g} m apart (assumed); "
+            f"flanges at ({point(tips['master'], 3)}) and ({point(tips['slave'], 3)}) m. Neither the "
+            "base poses nor the posture shown are printed, so the figure cannot be compared."
+        ),
+        alt="Stick figures of two six-joint arms, mirror images of each other, side by side.",
+        figure=lambda: stick_figure(arms, elev=18, azim=-35),
+        scene=scene,
+    )
+
+
+def _joint_frames(q: np.ndarray) -> list[np.ndarray]:
+    """Link frames 1 to 6 of the modified DH chain."""
+    arm = load_arm("es165d")
+    data = arm.model.createData()
+    pin.forwardKinematics(arm.model, data, q)
+    return [data.oMi[k].homogeneous for k in range(1, arm.nq + 1)]
+
+
+def _common_origins(frames: np.ndarray) -> str:
+    groups: dict[tuple[float, ...], list[str]] = {}
+    for number, frame in enumerate(frames):
+        groups.setdefault(tuple(frame[:3, 3].round(9) + 0.0), []).append(str(number))
+    return "; ".join(" and ".join(group) for group in groups.values() if len(group) > 1)
+
+
+def _unit(k: int, angle: float) -> np.ndarray:
+    q = np.zeros(6)
+    q[k] = angle
+    return q
+
+
+def _frame_columns() -> list[str]:
+    return [f"{axis}{row}" for row in "xyz" for axis in ("n", "o", "a", "p")]
+
+
+def _draw_dimensions(size: dict[str, float]) -> object:
+    """Skeleton in the maker's upright posture, drawn from the lengths alone."""
+    base, axis_s = np.array([0.0, 0.0]), np.array([0.0, size["d1"]])
+    axis_l = axis_s + [size["a1"], 0.0]
+    axis_u = axis_l + [0.0, size["a2"]]
+    corner = axis_u + [0.0, size["a3"]]
+    wrist = corner + [size["d4"], 0.0]
+    flange = wrist + [size["d6"], 0.0]
+    outline = np.array([base, axis_s, axis_l, axis_u, corner, wrist, flange])
+    return dimension_drawing(
+        outline,
+        [
+            ("d1", base, axis_s, (-0.25, 0.0)),
+            ("a1", axis_s, axis_l, (0.0, -0.15)),
+            ("a2", axis_l, axis_u, (0.25, 0.0)),
+            ("a3", axis_u, corner, (-0.25, 0.0)),
+            ("d4", corner, wrist, (0.0, 0.15)),
+            ("d6", wrist, flange, (0.0, -0.15)),
+        ],
+    )

@@ -1,0 +1,156 @@
+"""Master first, then slave with the master as moving obstacle, in one arrangement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import lru_cache
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from ...errors import InputError
+from ...planning.compiled import plan_apf_compiled
+from ...planning.control_points import control_points
+from ...planning.obstacles import Obstacles, obstacles_of
+from ...planning.plan import Plan
+from ...planning.settings import APFSettings
+from ...scene import JointPath, MovingArm, PlacedArm, Scene
+from .layout import Layout, placed_master, placed_slave
+from .methods import Method, attraction_only, improved
+
+_NOTHING = Obstacles(
+    (),
+    np.empty(0, dtype=np.int64),
+    np.empty((1, 0, 2, 3)),
+    np.empty(0),
+    np.empty((1, 0, 3, 4)),
+    np.empty((0, 3)),
+    np.empty((0, 4)),
+)
+
+
+@dataclass(frozen=True)
+class Encounter:
+    """How the arms meet; every field is the assumption of that name."""
+
+    master_as_obstacle: str
+    equal_speed_meaning: str
+
+    @classmethod
+    def of(cls, assumed: Mapping[str, Any]) -> Self:
+        """What the assumptions say."""
+        return cls(**{field.name: assumed[field.name] for field in fields(cls)})
+
+
+class Case(NamedTuple):
+    """Everything two motions depend on."""
+
+    layout: Layout
+    method: Method
+    encounter: Encounter
+
+    @classmethod
+    def of(cls, assumed: Mapping[str, Any]) -> Self:
+        """The case that the assumptions describe."""
+        return cls(*(part.of(assumed) for part in (Layout, Method, Encounter)))
+
+
+def attempt(
+    placed: PlacedArm, start: np.ndarray, obstacles: Obstacles, settings: APFSettings
+) -> Plan | None:
+    """A plan to the goal of the arm, or None where its start touches an obstacle."""
+    try:
+        return plan_apf_compiled(placed, start, placed.goal, obstacles, settings)
+    except InputError:
+        return None
+
+
+@lru_cache(maxsize=4096)
+def master_plan(layout: Layout, method: Method) -> Plan | None:
+    """Fig. 8: the master past the window by the improved method."""
+    placed = placed_master(layout)
+    settings = improved(method, layout.window_centre, placed.goal)
+    return attempt(placed, placed.start, window_obstacles(layout), settings)
+
+
+@lru_cache(maxsize=64)
+def master_undisturbed(layout: Layout, method: Method) -> Plan:
+    """The master under attraction alone."""
+    placed = placed_master(layout)
+    return plan_apf_compiled(
+        placed, placed.start, placed.goal, _NOTHING, attraction_only(method)
+    )
+
+
+@lru_cache(maxsize=4096)
+def slave_undisturbed(layout: Layout, method: Method) -> Plan | None:
+    """Fig. 9: the slave under attraction alone; None out of reach."""
+    placed = placed_slave(layout)
+    if placed is None:
+        return None
+    return attempt(placed, placed.start, _NOTHING, attraction_only(method))
+
+
+@lru_cache(maxsize=4096)
+def master_track(case: Case) -> JointPath | None:
+    """Joint path of the master over the steps of the slave; None without a plan that arrives.
+
+    ``same_step``: both make one joint step of equal bound per instant. ``same_tool_speed``: the
+    end effector of the master moves as fast as that of the undisturbed slave on average.
+    """
+    plan = master_plan(case.layout, case.method)
+    slave = slave_undisturbed(case.layout, case.method)
+    if plan is None or slave is None or not plan.reached:
+        return None
+    if case.encounter.equal_speed_meaning == "same_step":
+        return plan.joint_path()
+    speed = slave.tcp_length / slave.steps
+    pieces = np.linalg.norm(np.diff(plan.tcp, axis=0), axis=1)
+    return JointPath(plan.path, np.append(0.0, np.cumsum(pieces)) / speed)
+
+
+@lru_cache(maxsize=4096)
+def slave_obstacles(case: Case) -> Obstacles | None:
+    """Window and moving master as the slave's planner sees them."""
+    track = master_track(case)
+    if track is None:
+        return None
+    layout, master = case.layout, placed_master(case.layout)
+    whole = case.encounter.master_as_obstacle == "joint_points"
+    points = control_points(
+        master.arm, case.method.control_points if whole else "end_effector"
+    )
+    scene = Scene(
+        [placed_slave(layout)],
+        {"window": layout.window()},
+        {"master": MovingArm(master.arm, track, master.placement)},
+        self_collision=False,
+    )
+    return obstacles_of(scene, arm_points={"master": points})
+
+
+@lru_cache(maxsize=4096)
+def slave_plan(case: Case) -> Plan | None:
+    """Figs 10 and 11: the slave past window and moving master by the improved method."""
+    obstacles = slave_obstacles(case)
+    if obstacles is None:
+        return None
+    placed = placed_slave(case.layout)
+    settings = improved(case.method, case.layout.window_centre, placed.goal)
+    return attempt(placed, placed.start, obstacles, settings)
+
+
+@lru_cache(maxsize=4096)
+def window_obstacles(layout: Layout) -> Obstacles:
+    """The window alone."""
+    bars = layout.window()
+    return Obstacles(
+        tuple(f"window/{k}" for k in range(len(bars))),
+        np.zeros(len(bars), dtype=np.int64),
+        np.empty((1, 0, 2, 3)),
+        np.empty(0),
+        np.stack([bar.pose for bar in bars])[np.newaxis],
+        np.stack([bar.half for bar in bars]),
+        np.empty((0, 4)),
+    )

@@ -1,0 +1,205 @@
+"""Figures 5 and 6 of `xue` and what section 3.2 says about the workspaces."""
+
+from __future__ import annotations
+
+from functools import cache, partial
+from time import perf_counter
+
+import numpy as np
+import pandas as pd
+
+from ...arms import Arm
+from ...arms.occupancy import Occupancy, occupancy, rotation_volumes
+from ...arms.overlap import Overlap, overlap
+from ...arms.workspace import extents, sample_workspace, voxel_volume
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...view.clouds import cloud_figure, volume_figure
+from ...view.scene3d import Scene3D
+from ...view.style import MASTER, SLAVE
+from .scenario import MASTER_START, SEED, WORKSPACE_POINTS, arm_in_use, base_placements
+
+checks = partial(REGISTRY.checks, page="xue/workspace")
+
+CELLS = (0.05, 0.03, 0.02, 0.015)
+VOXELS = (0.3, 0.2, 0.1, 0.05)
+_CELL = 0.02  # of the occupancy behind the overlap
+_TEST_POINTS = 100_000
+_REPEATS = 5
+_SHOWN = 4000  # points of a cloud in the 3-D scene
+
+
+@cache
+def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
+    """Flange positions of random configurations (points, 3) [m]."""
+    return sample_workspace(arm, points, np.random.default_rng(seed))
+
+
+@cache
+def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
+    """Overlap of master and mirrored slave."""
+    master = arm_in_use(joint_ranges, upper_arm)
+    left, right = base_placements(distance)
+    slave = _slave(master)
+    maps = (_reached(master), _reached(slave))
+    return overlap((master, left), (slave, right), seed=SEED, points=_TEST_POINTS, maps=maps)
+
+
+@cache
+def _reached(arm: Arm) -> Occupancy:
+    return occupancy(arm, _CELL, np.random.default_rng(SEED))
+
+
+@cache
+def _slave(master: Arm) -> Arm:
+    return master.mirrored()
+
+
+@checks(
+    "xue.fig05",
+    rules=[
+        Is(key="points", to="points", label="number of random points"),
+        Bounded(key="beyond_reach", high=0.0, label="points beyond the largest possible reach"),
+        NeedsPrinted(key="extents", label="the joint ranges or the extents of the cloud"),
+    ],
+)
+def master_cloud(assumed: Assumed) -> Result:
+    """Cloud of the master, its extents, and its volume two ways."""
+    arm = arm_in_use(assumed["joint_ranges"], assumed["upper_arm"])
+    points = cloud(arm, WORKSPACE_POINTS)
+    size = extents(points)
+    body = rotation_volumes(arm, CELLS, SEED)
+    voxels = voxel_volume(points, VOXELS)
+    stretched = float(np.linalg.norm(arm.chain.translation, axis=1).sum())
+    table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
+    seconds = _time_per_cloud(arm)
+    return Result(
+        obtained={
+            "points": len(points),
+            "lower": size.lower.tolist(),
+            "upper": size.upper.tolist(),
+            "farthest": size.distance[1],
+            "beyond_reach": int(np.count_nonzero(np.linalg.norm(points, axis=1) > stretched)),
+            "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
+            "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
+        },
+        measured={"ns_per_sample": 1e9 * seconds / WORKSPACE_POINTS, "ms_per_cloud": 1e3 * seconds},
+        table=table,
+        caption=(
+            f"{len(points)} random configurations reach x from {size.lower[0]:.2f} to "
+            f"{size.upper[0]:.2f}, y from {size.lower[1]:.2f} to {size.upper[1]:.2f} and z from "
+            f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from the "
+            f"base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting voxels of "
+            f"the cloud gives anything from {voxels[-1].volume:.0f} to {voxels[0].volume:.0f} m^3, "
+            "depending on their size. Neither joint ranges nor extents are printed to compare with."
+        ),
+        alt=(
+            "Scatter of the flange positions of one arm in three dimensions, a body of rotation about "
+            "the vertical axis; beside it its half section, and volume over cell size."
+        ),
+        figure=lambda: volume_figure(points, body, voxels),
+    )
+
+
+@checks("xue.claim_mc_points", rules=[Adopts(key="points", to="points", label="random points used")])
+def monte_carlo_points(assumed: Assumed) -> Result:
+    """The cloud of Fig. 5 has the printed number of points."""
+    points = len(cloud(arm_in_use(), WORKSPACE_POINTS))
+    return Result(
+        obtained={"points": points},
+        caption=f"The cloud of Fig. 5 is drawn from {points} random configurations, as printed.",
+    )
+
+
+@checks(
+    "xue.fig06",
+    rules=[
+        Bounded(key="share_low", low=1e-4, label="lower 95 % bound of the share inside the other"),
+        Bounded(key="share_high", high=0.9999, label="upper 95 % bound of that share"),
+    ],
+    samples=32,
+)
+def both_clouds(assumed: Assumed) -> Result:
+    """Two independent clouds and the share of each inside the workspace of the other arm."""
+    ranges, upper_arm = assumed["joint_ranges"], assumed["upper_arm"]
+    distance, count = assumed["base_distance"], int(assumed["cloud_points"])
+    master = arm_in_use(ranges, upper_arm)
+    slave = _slave(master)
+    left, right = base_placements(distance)
+    common = common_workspace(ranges, upper_arm, distance)
+    shares = (common.first_in_second, common.second_in_first)
+
+    def clouds() -> dict[str, np.ndarray]:
+        return {
+            "master": cloud(master, count, SEED) + left.translation,
+            "slave": cloud(slave, count, SEED + 1) + right.translation,
+        }
+
+    def scene() -> Scene3D:
+        made = Scene3D(
+            f"Both arms at the printed start and {_SHOWN} points of either workspace.",
+            camera=(7.5, -3.5, 3.0),
+        )
+        made.add_arm("master", master, MASTER_START, left, MASTER)
+        made.add_arm("slave", slave, -MASTER_START, right, SLAVE)
+        for (name, points), color in zip(clouds().items(), (MASTER, SLAVE), strict=True):
+            made.add_points(f"{name} cloud", points[:_SHOWN], color)
+        return made
+
+    return Result(
+        obtained={
+            "points_per_arm": count,
+            "master_in_slave": shares[0].value,
+            "slave_in_master": shares[1].value,
+            "share_low": min(share.low for share in shares),
+            "share_high": max(share.high for share in shares),
+        },
+        table=pd.DataFrame(
+            [{"cloud": name, "share": s.value, "low": s.low, "high": s.high}
+             for name, s in zip(("master", "slave"), shares, strict=True)]
+        ),
+        caption=(
+            f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud lies "
+            f"in the slave's workspace (95 % interval {shares[0].low:.1%} to {shares[0].high:.1%}) "
+            f"and {shares[1].value:.1%} of the slave's in the master's: the clouds overlap in part."
+        ),
+        alt="Point clouds of two arms from above and from the front, overlapping in the middle.",
+        figure=lambda: cloud_figure(clouds(), (MASTER, SLAVE)),
+        scene=scene,
+    )
+
+
+@checks(
+    "xue.claim_overlap",
+    rules=[
+        Bounded(key="volume_low", low=1e-3, label="lower 95 % bound of the common volume [m^3]"),
+        Bounded(key="share_high", high=0.9999, label="no workspace lies wholly inside the other"),
+    ],
+    samples=64,
+)
+def partial_overlap(assumed: Assumed) -> Result:
+    """Volume common to both workspaces with its interval."""
+    distance = assumed["base_distance"]
+    common = common_workspace(assumed["joint_ranges"], assumed["upper_arm"], distance)
+    volume = common.volume
+    return Result(
+        obtained={
+            "volume": volume.value,
+            "volume_low": volume.low,
+            "volume_high": volume.high,
+            "share_high": max(common.first_in_second.high, common.second_in_first.high),
+        },
+        caption=(
+            f"With the bases {distance:g} m apart the workspaces share {volume.value:.2f} m^3 "
+            f"(95 % interval {volume.low:.2f} to {volume.high:.2f}), so the arms can collide."
+        ),
+    )
+
+
+def _time_per_cloud(arm: Arm) -> float:
+    """Median time of one cloud on one core [s]."""
+    times = []
+    for seed in range(_REPEATS + 1):
+        start = perf_counter()
+        sample_workspace(arm, WORKSPACE_POINTS, np.random.default_rng(seed))
+        times.append(perf_counter() - start)
+    return float(np.median(times[1:]))

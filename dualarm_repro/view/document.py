@@ -1,0 +1,74 @@
+"""Views of one document: what it is, its items and verdicts, its errata and their proofs."""
+
+from __future__ import annotations
+
+from html import escape
+
+from ..errors import UnknownNameError
+from ..ledger import Registry, record
+from ..ledger.cite import bibtex
+from ..ledger.record import erratum_record
+from ..ledger.schema import PaperFile
+from .badge import badge
+from .card import erratum_html
+from .page import Page
+
+
+def document_page(registry: Registry, paper: str) -> Page:
+    """Bibliographic record of a document, and what its source does not print of it."""
+    document = _paper(registry, paper).document
+    fields = {
+        "Title": document.title,
+        "Original title": document.title_original,
+        "Authors": "; ".join(document.authors),
+        "Affiliation": document.affiliation,
+        "Published in": document.journal,
+        "Year": document.year,
+        "Note": document.note,
+        "Not in the source": ", ".join(document.unknown),
+    }
+    rows = "".join(
+        f"<dt>{name}</dt><dd>{escape(value)}</dd>" for name, value in fields.items() if value
+    )
+    return Page(f'<dl class="ledger-document" id="{paper}.document">{rows}</dl>')
+
+
+def items_page(registry: Registry, paper: str) -> Page:
+    """All items of a document with verdict and, where there is none yet, the declared reason."""
+    made = [record(registry, f"{paper}.{key}") for key in _paper(registry, paper).items]
+    rows = "".join(
+        f"<tr><td><code>{entry['id']}</code></td><td>{escape(entry['place'])}</td>"
+        f"<td>{escape(entry['title'])}</td><td>{badge(entry['verdict'])}</td>"
+        f"<td>{escape(entry['pending'] or entry['caption'] or '')}</td></tr>"
+        for entry in made
+    )
+    head = "<tr><th>id</th><th>place</th><th>title</th><th>verdict</th><th>why</th></tr>"
+    return Page(
+        f'<div class="ledger-scroll"><table class="ledger-items" id="{paper}.items">'
+        f"<thead>{head}</thead><tbody>{rows}</tbody></table></div>"
+    )
+
+
+def errata_page(registry: Registry, paper: str) -> Page:
+    """Errata of a document, those with a machine proof first; every proof runs now."""
+    keys = [f"{paper}.{key}" for key in _paper(registry, paper).errata]
+    entries = [erratum_record(registry, key) for key in keys]
+    entries.sort(key=lambda entry: entry["proof"] is None)
+    lines = "".join(f'<li id="{entry["id"]}">{erratum_html(entry)}</li>' for entry in entries)
+    proved = sum(entry["proof"] is not None and entry["proof"]["holds"] for entry in entries)
+    return Page(
+        f'<div class="ledger-errata"><p>{len(entries)} errata, {proved} of them proved by '
+        f"computation.</p><ul>{lines}</ul></div>"
+    )
+
+
+def bibliography_page(registry: Registry) -> Page:
+    """BibTeX of every document."""
+    entries = "\n".join(bibtex(paper.document) for paper in registry.papers.values())
+    return Page(f'<pre class="ledger-bibtex">{escape(entries)}</pre>')
+
+
+def _paper(registry: Registry, name: str) -> PaperFile:
+    if name not in registry.papers:
+        raise UnknownNameError("ledger", "document", name, f"one of {', '.join(registry.papers)}")
+    return registry.papers[name]

@@ -1,0 +1,145 @@
+"""The command line as a newcomer uses it, wrong arguments included."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from dualarm_repro import cli
+
+XUE_PART_1 = [
+    *(f"xue.{name}" for name in ("fig01", "fig02", "fig03", "fig05", "fig06", "tab01")),
+    *(f"xue.eq{k:02d}" for k in range(1, 9)),
+    *(f"xue.claim_{c}" for c in ("spherical_wrist", "mirror", "mc_points", "overlap")),
+]
+
+
+@pytest.fixture
+def dualarm(capsys, monkeypatch):
+    """Run the command line in this process: exit code, standard output, standard error."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["dualarm", *map(str, arguments)])
+        with pytest.raises(SystemExit) as stop:
+            cli.main()
+        out, err = capsys.readouterr()
+        return stop.value.code or 0, out, err
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory):
+    """`dualarm list --json` in a process of its own, with a cold cache of its own."""
+    cache = tmp_path_factory.mktemp("cache")
+    command = [sys.executable, "-m", "dualarm_repro.cli", "list", "--json"]
+    environment = {**os.environ, "DUALARM_CACHE": str(cache)}
+    found = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
+    return json.loads(found.stdout)
+
+
+def test_list_has_every_item(records):
+    assert len(records) == len({made["id"] for made in records}) == 197
+    contract = {"id", "paper", "kind", "title", "printed", "obtained", "verdict"}
+    assert all(contract | {"assumptions", "errata", "robustness"} <= made.keys() for made in records)
+
+
+def test_xue_part_1_is_attempted(records):
+    verdicts = {made["id"]: made["verdict"] for made in records}
+    assert [i for i in XUE_PART_1 if verdicts[i] == "not-attempted"] == []
+
+
+def test_list_filters(dualarm):
+    code, out, _ = dualarm("list", "--paper", "patent", "--kind", "figure", "--json")
+    assert code == 0
+    ids = [made["id"] for made in json.loads(out)]
+    assert ids == ["patent.fig01", "patent.fig02", "patent.fig03"]
+
+
+def test_show(dualarm):
+    code, out, _ = dualarm("show", "xue.tab01", "--json")
+    made = json.loads(out)
+    assert code == 0
+    assert made["verdict"] == "inconsistent-in-print"
+    proofs = {entry["id"]: entry["proof"] for entry in made["errata"]}
+    assert proofs["xue.table1_shift"]["holds"] is True
+    code, out, _ = dualarm("show", "xue.tab01")
+    assert code == 0
+    assert "verdict: inconsistent-in-print" in out
+
+
+def test_run_writes_files(dualarm, tmp_path):
+    code, out, _ = dualarm("run", "xue.fig03", "xue.eq01", "--out", tmp_path)
+    assert code == 0
+    expected = [f"xue.eq01.{s}" for s in ("csv", "json", "png", "svg")]
+    expected += [f"xue.fig03.{s}" for s in ("csv", "html", "json", "png", "svg")]
+    assert sorted(path.name for path in tmp_path.iterdir()) == expected
+    scene = (tmp_path / "xue.fig03.html").read_text()
+    assert "MeshCat.Viewer" in scene
+    assert 'src="http' not in scene
+
+
+def test_verify_and_sensitivity(dualarm):
+    code, out, _ = dualarm("verify", "xue.eq01", "xue.tab01", "xue.fig05", "--json")
+    report = json.loads(out)
+    assert (code, report["drifted"]) == (0, [])
+    assert report["checked"] == 3
+    code, out, _ = dualarm("sensitivity", "xue.claim_overlap", "--samples", 8, "--json")
+    assert code == 0
+    assert json.loads(out)["robustness"]["samples"] == 8
+
+
+def test_cite(dualarm):
+    code, out, _ = dualarm("cite", "xue.tab01")
+    assert code == 0
+    assert out.startswith("@misc{dualarm_repro_xue_tab01")
+    code, out, _ = dualarm("cite", "xue.tab01", "--format", "csl-json")
+    assert code == 0
+    assert len(json.loads(out)) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["show", "xue.fig99"], ["xue.fig99", "expected an item id"]),
+        (["show"], ["Missing argument"]),
+        (["shew", "xue.fig01"], ["shew"]),
+        (["list", "--paper", "smith"], ["smith", "xue, patent, pan, qiu"]),
+        (["list", "--kind", "photo"], ["photo"]),
+        (["list", "--jsn"], ["--jsn"]),
+        (["run", "xue.nothing", "--out", "."], ["xue.nothing"]),
+        (["verify", "xue.nothing"], ["xue.nothing"]),
+        (["cite", "xue.tab01", "--format", "ris"], ["ris"]),
+        (["sensitivity", "xue.claim_overlap", "--samples", "0"], ["samples", "0"]),
+        (["study", "nothing"], ["nothing"]),
+    ],
+)
+def test_bad_arguments_are_one_line(dualarm, arguments, words):
+    code, out, err = dualarm(*arguments)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    assert out == ""
+    for word in words:
+        for part in word.split(", "):
+            assert part in err
+
+
+def test_unwritable_folder_leaves_nothing(dualarm, tmp_path):
+    (tmp_path / "file").write_text("kept")
+    code, _, err = dualarm("run", "xue.eq01", "--out", tmp_path / "file" / "sub")
+    assert code == 2
+    assert err.count("\n") == 1
+    assert str(tmp_path / "file") in err
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_help_lists_the_commands(dualarm):
+    code, out, _ = dualarm("--help")
+    assert code == 0
+    assert all(name in out for name in ("list", "show", "run", "verify", "sensitivity", "cite"))
+    code, out, _ = dualarm()
+    assert code == 2
+    assert "Usage" in out

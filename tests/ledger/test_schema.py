@@ -1,0 +1,60 @@
+"""Malformed paper files are refused with file, field, value and expectation."""
+
+import json
+
+import pytest
+
+from dualarm_repro.errors import DataFileError, LedgerError
+from dualarm_repro.ledger import Registry
+from dualarm_repro.ledger.schema import json_schema, load_paper
+
+from .toy import YAML
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "field"),
+    [
+        ("title: The count", "titel: The count", "items.claim_count.titel"),
+        ("title: The count, ", "", "items.claim_count.title"),
+        ('printed: {n: "3"}', "printed: {n: 3}", "items.claim_count.printed"),
+        ('printed: {n: "3"}', "printed: {}", "items.claim_count.printed"),
+        ("kind: figure", "kind: picture", "items.fig01.kind"),
+        ("assumptions: [width, shape]", "assumptions: [widht]", "no assumption named 'widht'"),
+        ("affects: [toy.claim_area]", "affects: [toy.x]", "no item named 'toy.x'"),
+        ("range: [0.0, 4.0]", "range: [2.0, 4.0]", "assumptions.width"),
+        ("range: [0.0, 4.0]", "range: [0.0, .nan]", "assumptions.width"),
+        ("choices: [round, square]", "choices: [square]", "assumptions.shape"),
+        ("items:", "items: [", "well-formed YAML"),
+        ("  claim_count: {", "  claim_area: {", "given twice"),
+    ],
+)
+def test_refused(tmp_path, old, new, field):
+    assert old in YAML
+    path = tmp_path / "toy.yaml"
+    path.write_text(YAML.replace(old, new, 1))
+    with pytest.raises(DataFileError) as caught:
+        load_paper(path)
+    message = str(caught.value)
+    assert field in message
+    assert str(path) in message
+    assert "expected" in message
+    assert "\n" not in message
+
+
+def test_missing_file_and_wrong_name(tmp_path):
+    with pytest.raises(DataFileError, match="a readable YAML file"):
+        load_paper(tmp_path / "none.yaml")
+    (tmp_path / "other.yaml").write_text(YAML)
+    with pytest.raises(LedgerError, match=r"other\.yaml: document\.id is 'toy'"):
+        Registry().load(tmp_path)
+
+
+def test_json_schema_accepts_the_paper_files(registry):
+    from jsonschema import Draft202012Validator
+
+    from dualarm_repro.datafiles import data_path, read_yaml
+
+    schema = json.loads(json.dumps(json_schema()))
+    Draft202012Validator.check_schema(schema)
+    for name in registry.papers:
+        Draft202012Validator(schema).validate(read_yaml(data_path("papers", f"{name}.yaml")))

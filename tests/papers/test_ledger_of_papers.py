@@ -1,0 +1,86 @@
+"""Every checker of every document: verdicts that can change, proofs that hold, no drift."""
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+from dualarm_repro.ledger import Verdict, evaluate, prove, reference
+from dualarm_repro.ledger.files import to_json
+from dualarm_repro.ledger.mutation import insensitive
+from dualarm_repro.ledger.printed import leaves, replaced
+from dualarm_repro.ledger.reference import read_reference
+from dualarm_repro.papers import load
+
+REGISTRY = load()
+ATTEMPTED = sorted(REGISTRY.checkers)
+
+
+@cache
+def evaluated(item_id):
+    return evaluate(REGISTRY, item_id)
+
+
+@pytest.mark.parametrize("item_id", ATTEMPTED)
+def test_checker(item_id):
+    evaluation = evaluated(item_id)
+    assert evaluation.verdict is not Verdict.NOT_ATTEMPTED
+    assert insensitive(evaluation) == []
+    assert evaluation.result.caption.strip()
+    json.loads(to_json(evaluation.result.obtained))
+    if evaluation.verdict is Verdict.UNDECIDABLE:
+        assert evaluation.item.missing, "the missing datum is named"
+
+
+@pytest.mark.parametrize("erratum_id", sorted(REGISTRY.proofs))
+def test_proof_holds(erratum_id):
+    proof = prove(REGISTRY, erratum_id)
+    assert proof.holds
+    assert proof.values
+    json.loads(to_json(proof.values))
+
+
+@pytest.mark.parametrize("paper", sorted(REGISTRY.papers))
+def test_nothing_drifted(paper):
+    stored = read_reference(paper)
+    ids = [item_id for item_id in REGISTRY.items if item_id.startswith(f"{paper}.")]
+    assert sorted(stored) == sorted(ids)
+    report = reference.verify(REGISTRY, ids)
+    assert report["drifted"] == []
+
+
+@pytest.mark.parametrize("item_id", ATTEMPTED)
+def test_perturbed_reference_is_found(item_id):
+    stored = read_reference(item_id.partition(".")[0])[item_id]
+    numbers = [
+        path
+        for path, leaf in leaves(stored["obtained"])
+        if isinstance(leaf, int | float) and not isinstance(leaf, bool) and abs(leaf) > 1e-6
+    ]
+    for path in numbers[:5]:
+        changed = replaced(stored["obtained"], path, 1.00001 * float(np.array(_at(stored, path))))
+        assert reference.differences(stored["obtained"], changed)
+
+
+def _at(stored, path):
+    value = stored["obtained"]
+    for part in path:
+        value = value[part]
+    return value
+
+
+@pytest.mark.parametrize("item_id", [i for i in ATTEMPTED if REGISTRY.item(i).kind == "figure"])
+def test_figure(item_id):
+    import matplotlib.pyplot as plt
+
+    result = evaluated(item_id).result
+    assert result.figure is not None or result.scene is not None
+    if result.figure is not None:
+        figure = result.figure()
+        assert len(result.alt) > 30
+        for ax in figure.axes:
+            if ax.axison and ax.get_label() != "<colorbar>":
+                assert ax.get_xlabel()
+                assert ax.get_ylabel()
+        plt.close(figure)

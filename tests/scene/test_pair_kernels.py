@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+from examples import random_box, random_capsule
+
+from dualarm_repro.scene import Capsule, HalfSpace, signed_distance
+from dualarm_repro.scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
+
+RNG_SEED = 0
+N, C = 20, 5
+
+
+def cores(rng):
+    return 0.5 * rng.normal(size=(N, C, 2, 3)), rng.uniform(0.02, 0.2, C)
+
+
+def capsule_case(rng):
+    ends, radius = cores(rng)
+    return (ends, radius), lambda n, j: Capsule(*ends[n, j], radius[j]), capsules_capsules
+
+
+def box_case(rng):
+    ends, radius = cores(rng)
+    boxes = [[random_box(rng) for _ in range(C)] for _ in range(N)]
+    half = np.array([box.half for box in boxes[0]])
+    poses = np.array([[box.pose for box in row] for row in boxes])
+
+    def box(n, j):
+        return type(boxes[n][j])(boxes[n][j].center, 2 * half[j], boxes[n][j].rotation)
+
+    return (ends, radius, poses, half), box, capsules_boxes
+
+
+def plane_case(rng):
+    ends, radius = cores(rng)
+    planes = [HalfSpace(rng.normal(size=3), rng.normal()) for _ in range(C)]
+    rows = np.array([plane.plane for plane in planes])
+    return (ends, radius, rows), lambda n, j: planes[j], capsules_planes
+
+
+@pytest.mark.parametrize("case", [capsule_case, box_case, plane_case])
+def test_batch_equals_single_pairs(case):
+    arrays, second, kernel = case(np.random.default_rng(RNG_SEED))
+    pairs = np.array([(i, j) for i in range(C) for j in range(C) if i != j])
+    distance, witness = np.empty((N, len(pairs))), np.empty((N, len(pairs), 3, 3))
+    kernel(*arrays, pairs, distance, witness)
+    for n in range(N):
+        for k, (i, j) in enumerate(pairs):
+            first = Capsule(*arrays[0][n, i], arrays[1][i])
+            single = signed_distance(first, second(n, j))
+            assert distance[n, k] == pytest.approx(single.distance, abs=1e-14)
+            np.testing.assert_allclose(witness[n, k], np.stack(single[1:]), atol=1e-12)
+
+
+@pytest.mark.parametrize("case", [capsule_case, box_case, plane_case])
+def test_distances_are_the_same_without_witnesses(case):
+    arrays, _, kernel = case(np.random.default_rng(RNG_SEED))
+    pairs = np.array([(i, j) for i in range(C) for j in range(C)])
+    full, bare = np.empty((2, N, len(pairs)))
+    kernel(*arrays, pairs, full, np.empty((N, len(pairs), 3, 3)))
+    kernel(*arrays, pairs, bare, np.empty((0, 0, 3, 3)))
+    np.testing.assert_allclose(bare, full, atol=1e-14)
+    assert full.min() < 0 < full.max()
