@@ -26,13 +26,13 @@ book: $(VENV)/.installed _build/.code  ## execute every notebook and build _buil
 	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
 	$(BIN)/python tools/check_book.py
 
-test: $(VENV)/.installed  ## run the whole test suite
+test: $(VENV)/.installed _build/.code  ## run the whole test suite
 	$(BIN)/python -m pytest
 
-verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
+verify: $(VENV)/.installed _build/.code  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
 
-results: $(VENV)/.installed  ## recompute and rewrite the reference results in data/results
+results: $(VENV)/.installed _build/.code  ## recompute and rewrite the reference results in data/results
 	$(BIN)/dualarm verify --update
 
 bench: $(VENV)/.bench  ## ratios against peers, measured in one run
@@ -54,9 +54,12 @@ wheel: $(VENV)/.installed  ## build a wheel that carries the data files
 clean:  ## remove everything that was built, keep the environment
 	rm -rf _build dist
 
-# The notebook cache knows only the cells: drop it whenever library, data or lock change.
+# The notebook cache knows only the cells, and numba's only the file of the function itself: drop
+# both whenever library, data or lock change.
 _build/.code: $(CODE)
-	rm -rf _build/.jupyter_cache && mkdir -p _build && touch $@
+	rm -rf _build/.jupyter_cache && mkdir -p _build
+	find dualarm_repro -name '*.nb[ic]' -delete
+	touch $@
 
 $(UV):
 	$(PYTHON) -m pip install -q --disable-pip-version-check --target .boot uv==0.13.9

@@ -1,18 +1,14 @@
 """Side-by-side timings on one thread: ``python benchmarks/run.py [--json] [SUITE ...]``.
 
-A suite is a module of this folder with a function ``measure()`` that yields rows. Only ratios within one
-run mean something: machines differ, and so does their load.
+A suite is a module of this folder with a function ``measure()`` that yields rows. Only ratios
+within one run mean something: machines differ, and so does their load.
 """
 
 from __future__ import annotations
 
-import os
-
-for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
-    os.environ[_threads] = "1"
-
 import argparse
 import json
+import os
 import platform
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
@@ -23,6 +19,7 @@ from rich.table import Table
 from timing import OURS, Row
 
 NOT_SUITES = {"run", "timing"}
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 LIBRARIES = (
     "numpy",
     "numba",
@@ -44,7 +41,10 @@ def main() -> None:
     options = parser.parse_args()
     if unknown := set(options.suites) - set(suites):
         parser.error(f"suite {unknown.pop()!r}: expected one of {', '.join(suites)}")
+    os.environ.update(dict.fromkeys(THREADS, "1"))  # before a suite imports numpy
     rows = [row for name in options.suites or suites for row in import_module(name).measure()]
+    tasks = list(dict.fromkeys(row.task for row in rows))
+    rows.sort(key=lambda row: tasks.index(row.task))
     report = {"cpu": _cpu(), "python": platform.python_version(), "libraries": _versions()}
     if options.json:
         print(json.dumps({**report, "rows": [_entry(row, rows) for row in rows]}, indent=2))

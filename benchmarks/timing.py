@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from statistics import median
 
-REPEATS = 9
+REPEATS = 15
 
 
 @dataclass(frozen=True)

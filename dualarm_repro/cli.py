@@ -140,6 +140,53 @@ def sensitivity(
 
 
 @app.command()
+def methods(as_json: AsJson = False) -> None:
+    """List the planners that `plan` knows."""
+    from .planning.methods import METHODS, settings_schema
+
+    if as_json:
+        _print_json(
+            [
+                {"name": name, "description": m.description, "settings": settings_schema(name)}
+                for name, m in METHODS.items()
+            ]
+        )
+        return
+    table = Table("method", "description", box=None)
+    for name, entry in METHODS.items():
+        table.add_row(name, entry.description)
+    _console().print(table)
+
+
+@app.command()
+def plan(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE.yaml", help="scene or task file")],
+    method: Annotated[str, typer.Option(help="name of a planner, see `dualarm methods`")],
+    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
+) -> None:
+    """Plan the tasks of your own arms: writes STEM.json, STEM_ARM.csv and STEM.html (3-D)."""
+    from .ledger.files import write_text
+    from .planning.methods import plan_file
+    from .view.plan_report import plan_scene, plan_summary
+
+    found = plan_file(scene, method)
+    summary = {"scene": scene.name, "method": method, **plan_summary(found)}
+    files = [write_text(out / f"{scene.stem}.json", _json(summary))]
+    for name, one in found.plans.items():
+        files.append(write_text(out / f"{scene.stem}_{name}.csv", one.to_frame().to_csv()))
+    html = plan_scene(found, f"{scene.stem} by {method}").html()
+    files.append(write_text(out / f"{scene.stem}.html", html))
+    for name, entry in summary["arms"].items():
+        print(f"{name}: {entry['reason']} after {entry['steps']} steps")
+        if entry["certificate"]:
+            certificate = entry["certificate"]
+            print(f"  {', '.join(f'{key} {value}' for key, value in certificate.items())}")
+    links = summary["links"]
+    print(f"closest bodies: {' - '.join(links['pair'])} {links['minimum_distance_m']:.4f} m")
+    _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
+
+
+@app.command()
 def study(
     names: Annotated[list[str] | None, typer.Argument(metavar="[NAME...]")] = None,
     jobs: Annotated[int, typer.Option(min=1, help="worker processes")] = 1,

@@ -15,8 +15,12 @@ class InputError(DualArmError):
     """
 
     def __init__(self, source: object, field: str, value: object, expected: str) -> None:
+        # All four are arguments of the base class, so that workers can pickle the error.
+        super().__init__(source, field, value, expected)
         self.source, self.field, self.value, self.expected = source, field, value, expected
-        super().__init__(f"{source}: {field} = {shorten(value)}: expected {expected}")
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.field} = {shorten(self.value)}: expected {self.expected}"
 
 
 class DataFileError(InputError):

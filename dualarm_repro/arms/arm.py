@@ -10,16 +10,15 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from ..errors import ConfigurationError, InputError, UnsupportedArmError
+from ..errors import ConfigurationError, UnsupportedArmError
 from . import dh, kernels
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
+from .poses import check_poses
 from .robot_file import DHRobot
 from .wrist_geometry import WristGeometry, wrist_geometry
-from .wrist_ik import inverse_kinematics
-
-SAME = 1e-6  # two branches whose angles differ by less than about this [rad] are one
+from .wrist_ik import distinct, inverse_kinematics
 
 
 class Arm:
@@ -195,13 +194,9 @@ class Arm:
         InputError
             T is no pose.
         """
-        pose = self._poses(T, ndim=2)
+        pose = check_poses(f"arm {self.name}", T, ndim=2)
         branches = self._solve(pose[np.newaxis], reference, within_limits)[0]
-        found: list[np.ndarray] = []
-        for q in branches[~np.isnan(branches).any(axis=1)]:
-            if all(np.abs(np.sin(0.5 * (q - other))).max() > SAME for other in found):
-                found.append(q)
-        return np.array(found).reshape(-1, self.nq)
+        return branches[distinct(branches)]
 
     def ik_branches(
         self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
@@ -222,7 +217,8 @@ class Arm:
         ndarray (N, 8, nq)
             NaN for a branch that does not exist or is outside the limits.
         """
-        return self._solve(self._poses(T, ndim=3), reference, within_limits)
+        poses = check_poses(f"arm {self.name}", T, ndim=3)
+        return self._solve(poses, reference, within_limits)
 
     def symbolic_fk(self) -> sp.Matrix:
         """T(q) of a DH arm as a sympy Matrix (4, 4) in q_1 ... q_n, exact.
@@ -292,26 +288,6 @@ class Arm:
         unlimited = np.full(self.nq, np.inf)
         lower, upper = (self.lower, self.upper) if within_limits else (-unlimited, unlimited)
         return inverse_kinematics(geometry, poses, near, lower, upper)
-
-    def _poses(self, T: ArrayLike, ndim: int) -> np.ndarray:
-        """``T`` as a float64 array of poses, checked."""
-        shape = "(4, 4)" if ndim == 2 else "(N, 4, 4)"
-        source, expected = f"arm {self.name}", f"{shape} finite, rotation and translation [m]"
-        try:
-            poses = np.asarray(T, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError(source, "T", T, expected) from None
-        if poses.ndim != ndim or poses.shape[-2:] != (4, 4):
-            raise InputError(source, "shape of T", poses.shape, expected)
-        if not np.isfinite(poses).all():
-            raise InputError(source, "T", "NaN or infinity", expected)
-        rotation = poses[..., :3, :3]
-        error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(initial=0.0)
-        if error > 1e-6 or (np.linalg.det(rotation) < 0).any():
-            raise InputError(source, "T", poses.tolist(), "an orthonormal right-handed rotation")
-        if (poses[..., 3, :] != (0.0, 0.0, 0.0, 1.0)).any():
-            raise InputError(source, "T", poses.tolist(), "the last row 0, 0, 0, 1")
-        return poses
 
     def _dh_robot(self, wanted: str) -> DHRobot:
         if self._robot is None:

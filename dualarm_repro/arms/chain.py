@@ -34,7 +34,7 @@ def chain_of(name: str, model: pin.Model, flange: int) -> Chain:
     for joint in range(1, n + 1):
         jacobian = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)
         column = jacobian.reshape(6, n)[:, joint - 1]  # Pinocchio drops the axis of a single joint
-        if np.any(column[:3]) or not np.isclose(np.linalg.norm(column[3:]), 1.0):
+        if not np.isclose(np.linalg.norm(column[3:]), 1.0):
             raise UnsupportedArmError(f"arm {name}: joint {model.names[joint]} is not revolute")
         placement = model.jointPlacements[joint]
         following = pin.Quaternion.FromTwoVectors(_Z, column[3:]).matrix()

@@ -1,10 +1,10 @@
 """Closed-form inverse kinematics of six revolute joints with a spherical wrist.
 
 The wrist centre W = p - R d depends on q1, q2, q3 only: axis 1 turns the vertical plane of the
-arm, in which upper arm and forearm form a planar 2R chain; then the product of exponentials of the
-wrist, exp(z4 q4) exp(z5 q5) exp(z6 q6) = N, is solved for its three angles (D. L. Pieper, 1968; B.
-Paden, 1986). Two signs at shoulder, elbow and wrist give the eight branches. Every angle is found
-as a pair of sine and cosine; the arctangents come last, in one loop.
+arm, in which upper arm and forearm form a planar 2R chain; the rotation that is left then gives the
+three angles of the wrist (D. L. Pieper, The kinematics of manipulators under computer control,
+1968). Two signs at shoulder, elbow and wrist make the eight branches. Every angle is found as a
+pair of sine and cosine; the arctangents come last, in one loop.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from .trigonometry import arctan2
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
 SINGULAR = 1e-11  # sine below which an angle is undetermined and its reference is taken
 BOUNDARY = 1e-12  # relative overshoot of a square that rounding is allowed
+SAME = 1e-6  # half the difference [rad] below which the angles of two branches are one
 ON_LIMIT = 1e-11  # overshoot of a joint limit [rad] that is clipped
 _TIE = 1e-9  # of a turn: half a turn away from the reference is taken on the upper side
 _TURN = 2.0 * math.pi
@@ -52,12 +53,14 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
     exists = np.empty(BRANCHES, dtype=np.bool_)
     for k in range(len(poses)):
         centre = _wrist_centre(geometry, poses, k)
-        tool, normal = _from_flange(geometry, poses, k, 0), _from_flange(geometry, poses, k, 1)
+        tool = _from_flange(geometry, poses, k, geometry.flange[0])
+        normal = _from_flange(geometry, poses, k, geometry.flange[1])
         for arm in range(BRANCHES // 2):
             s1, c1, s2, c2, s, c, reached = _arm_angles(geometry, centre, arm, reference)
-            tool_, normal_ = _undo_arm(s1, c1, s, c, tool), _undo_arm(s1, c1, s, c, normal)
+            z6 = _undo_arm(geometry, s1, c1, s, c, tool)
+            x5 = _undo_arm(geometry, s1, c1, s, c, normal)
             for b in range(2 * arm, 2 * arm + 2):
-                s4, c4, s5, c5, s6, c6, real = _wrist_angles(geometry, tool_, normal_, b, reference)
+                s4, c4, s5, c5, s6, c6, real = _wrist_angles(geometry, z6, x5, b, reference)
                 for j, pair in enumerate(
                     ((s1, c1), (s2, c2), (s, c), (s4, c4), (s5, c5), (s6, c6))
                 ):
@@ -79,6 +82,20 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
                 for j in range(6):
                     out[k, b, j] = np.nan
     return out
+
+
+@njit(cache=True, error_model="numpy")
+def distinct(branches):
+    """Which of the branches (8, 6) of one pose exist and equal no earlier one, (8,) of bool."""
+    keep = np.zeros(BRANCHES, dtype=np.bool_)
+    for b in range(BRANCHES):
+        keep[b] = not np.isnan(branches[b, 0])
+        for other in range(b):
+            apart = 0.0
+            for j in range(6):
+                apart = max(apart, abs(math.sin(0.5 * (branches[b, j] - branches[other, j]))))
+            keep[b] &= not (keep[other] and apart < SAME)
+    return keep
 
 
 @njit(cache=True, error_model="numpy")
@@ -118,31 +135,28 @@ def _arm_angles(geometry, centre, arm, reference):
 
 
 @njit(cache=True, error_model="numpy")
-def _wrist_angles(geometry, tool, normal, branch, reference):
-    """Sine and cosine of q4, q5, q6 that turn z6 and its normal into these, if they are real."""
-    z4, z5, z6 = _row(geometry.wrist, 0), _row(geometry.wrist, 1), _row(geometry.wrist, 2)
-    skew4, skew6, along = _dot(z4, z5), _dot(z5, z6), _dot(z4, tool)
-    across = _cross(z4, tool)
-    square = _dot(across, across) - skew4**2 - skew6**2 + 2.0 * skew4 * skew6 * along
-    sine, cosine = math.sqrt(max(square, 0.0)), along - skew4 * skew6
-    sine = -sine if branch & 1 else sine
-    sine0, cosine0 = _dot(z4, _cross(z5, z6)), _dot(z4, z6) - skew4 * skew6
-    scale = sine0**2 + cosine0**2
-    s5, c5 = _sum(sine / scale, cosine / scale, sine0, cosine0)
+def _wrist_angles(geometry, tool, x5, branch, reference):
+    """Sine and cosine of q4, q5, q6 that turn z6 and x5 into these vectors, if they are real.
 
-    bent = _turn(z5, s5, c5, z6)
-    side = _cross(z4, bent)
-    length = _dot(side, side)
+    In the frame x4, y4, z4 the wrist is Rz(q4) Rx(a) Rz(q5 + turn) Rx(b) Rz(q6), with twists a, b.
+    """
+    (sa, ca), (sb, cb) = geometry.twists
+    across = tool[0] ** 2 + tool[1] ** 2
+    square = across - ca * ca - cb * cb + 2.0 * ca * cb * tool[2]
+    sine, cosine = math.sqrt(max(square, 0.0)) / (sa * sb), (ca * cb - tool[2]) / (sa * sb)
+    sine = sine if branch & 1 else -sine
+    # Columns of Rx(a) Rz(q5 + turn) Rx(b).
+    m0 = (cosine, ca * sine, sa * sine)
+    m1 = (-cb * sine, ca * cb * cosine - sa * sb, sa * cb * cosine + ca * sb)
+    u, v = sb * sine, -ca * sb * cosine - sa * cb
+    length = u * u + v * v
     if length > SINGULAR**2:
-        s4 = _dot(side, tool) / length
-        c4 = (_dot(bent, tool) - _dot(z4, bent) * along) / length
+        s4, c4 = (u * tool[1] - v * tool[0]) / length, (u * tool[0] + v * tool[1]) / length
     else:
         s4, c4 = math.sin(reference[3]), math.cos(reference[3])
-
-    rest = _row(geometry.wrist, 3)
-    c6 = _dot(normal, _turn(z4, s4, c4, _turn(z5, s5, c5, rest)))
-    s6 = _dot(normal, _turn(z4, s4, c4, _turn(z5, s5, c5, _cross(z6, rest))))
-    return s4, c4, s5, c5, s6, c6, square > -BOUNDARY
+    w = (c4 * x5[0] + s4 * x5[1], c4 * x5[1] - s4 * x5[0], x5[2])
+    s5, c5 = _sum(sine, cosine, -geometry.turn[0], geometry.turn[1])
+    return s4, c4, s5, c5, _dot(m1, w), _dot(m0, w), square > -BOUNDARY
 
 
 @njit(cache=True, error_model="numpy")
@@ -162,15 +176,17 @@ def _sum(s, c, sine, cosine):
 
 
 @njit(cache=True, error_model="numpy")
-def _undo_arm(s1, c1, s, c, v):
-    """Ry(-pitch) Rz(-q1) v."""
+def _undo_arm(geometry, s1, c1, s, c, v):
+    """Ry(-pitch) Rz(-q1) v, in the frame x4, y4, z4."""
     x, y = c1 * v[0] + s1 * v[1], c1 * v[1] - s1 * v[0]
-    return (c * x - s * v[2], y, s * x + c * v[2])
+    turned = (c * x - s * v[2], y, s * x + c * v[2])
+    x4, y4, z4 = geometry.wrist
+    return (_dot(x4, turned), _dot(y4, turned), _dot(z4, turned))
 
 
 @njit(cache=True, error_model="numpy")
 def _wrist_centre(geometry, poses, k):
-    d = _from_flange(geometry, poses, k, 2)
+    d = _from_flange(geometry, poses, k, geometry.flange[2])
     p = _from_base(
         geometry,
         poses[k, 0, 3] - geometry.origin[0],
@@ -181,9 +197,9 @@ def _wrist_centre(geometry, poses, k):
 
 
 @njit(cache=True, error_model="numpy")
-def _from_flange(geometry, poses, k, row):
-    """A row of ``geometry.flange``, a vector of the flange frame, in the frame of the geometry."""
-    f0, f1, f2 = _row(geometry.flange, row)
+def _from_flange(geometry, poses, k, vector):
+    """A vector of the flange frame in the frame of the geometry."""
+    f0, f1, f2 = vector
     return _from_base(
         geometry,
         poses[k, 0, 0] * f0 + poses[k, 0, 1] * f1 + poses[k, 0, 2] * f2,
@@ -195,36 +211,11 @@ def _from_flange(geometry, poses, k, row):
 @njit(cache=True, error_model="numpy")
 def _from_base(geometry, x, y, z):
     """A vector of the base frame in the frame of the geometry."""
-    base = geometry.base
-    return (
-        base[0, 0] * x + base[1, 0] * y + base[2, 0] * z,
-        base[0, 1] * x + base[1, 1] * y + base[2, 1] * z,
-        base[0, 2] * x + base[1, 2] * y + base[2, 2] * z,
-    )
+    X, Y, Z = geometry.base
+    v = (x, y, z)
+    return (_dot(X, v), _dot(Y, v), _dot(Z, v))
 
 
 @njit(cache=True, error_model="numpy")
 def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@njit(cache=True, error_model="numpy")
-def _cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-@njit(cache=True, error_model="numpy")
-def _turn(axis, s, c, v):
-    """exp(axis angle) v, with the sine and cosine of the angle."""
-    k = _dot(axis, v) * (1.0 - c)
-    x = _cross(axis, v)
-    return (
-        v[0] * c + x[0] * s + axis[0] * k,
-        v[1] * c + x[1] * s + axis[1] * k,
-        v[2] * c + x[2] * s + axis[2] * k,
-    )
-
-
-@njit(cache=True, error_model="numpy")
-def _row(matrix, k):
-    return (matrix[k, 0], matrix[k, 1], matrix[k, 2])

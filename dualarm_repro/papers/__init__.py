@@ -8,8 +8,8 @@ from importlib import import_module
 from ..ledger import REGISTRY, Registry
 from ..view.page import Page, present
 
-#: Documents with code; the others have data files only.
-ROOMS = ("xue",)
+#: One room per document, in the order of the listings.
+ROOMS = ("xue", "qiu", "patent", "pan")
 
 
 @cache

@@ -10,12 +10,14 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from ..arms.arm import Arm
 from .hull import ConvexHull
 from .moving import MovingArm, MovingShape
 from .posing import links_of
-from .shapes import Box, Capsule, HalfSpace, Shape, Sphere
+from .quantities import finite_pose
+from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 
 Sort = Literal["capsule", "box", "plane", "hull"]
 
@@ -27,8 +29,14 @@ class PlacedArm:
     name: str
     arm: Arm
     placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
-    start: np.ndarray | None = None
-    goal: np.ndarray | None = None
+    start: ArrayLike | None = None
+    goal: ArrayLike | None = None
+
+    def __post_init__(self) -> None:
+        finite_pose(f"arm {self.name}", "placement", self.placement)
+        for field_name in ("start", "goal"):
+            if (q := getattr(self, field_name)) is not None:
+                object.__setattr__(self, field_name, self.arm.configurations(q))
 
 
 class Body(NamedTuple):
@@ -112,6 +120,8 @@ def collect(
                 add(shape.plane, name, owner, "plane", still)
             case ConvexHull():
                 add(shape, name, owner, "hull", still)
+            case _:
+                raise not_a_shape(f"obstacle {name}", shape)
 
     for placed in arms:
         add_arm(placed.name, placed.arm, controlled=True)

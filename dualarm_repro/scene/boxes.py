@@ -12,7 +12,7 @@ crossed with u, so that the shortest translation is along one of these six axes.
 from __future__ import annotations
 
 from .compiled import kernel
-from .segments import CORES_MEET, clamped
+from .segments import CORES_MEET, ROUNDING, clamped, lowest
 from .vectors import along, cross, dot, scaled
 
 
@@ -77,7 +77,7 @@ def shortest_exit(a, u, h):
         m = scaled(1.0 / length, m)
         offset = dot(m, a)
         reach = h[0] * abs(m[0]) + h[1] * abs(m[1]) + h[2] * abs(m[2])
-        if reach - abs(offset) < depth:
+        if reach - abs(offset) < depth - ROUNDING:
             sign = 1.0 if offset >= 0.0 else -1.0
             depth, direction, axis = reach - abs(offset), scaled(sign, m), 3 + k
     return depth, direction, axis
@@ -100,15 +100,12 @@ def deepest_parameter(a, u, h, direction, axis):
             i = j
         edge = h[i] if direction[i] > 0.0 else -h[i]
         return clamped((edge - a[i] - depth * direction[i]) / u[i], 0.0, 1.0)
-    climb = dot(direction, u)
-    if abs(climb) > CORES_MEET:
-        return 1.0 if climb < 0.0 else 0.0
-    low, high = 0.0, 1.0
+    low, high = 0.0, 1.0  # the part that leaves through this face
     for i in range(3):
         if i != axis and u[i] != 0.0:
             t1, t2 = (-h[i] - a[i]) / u[i], (h[i] - a[i]) / u[i]
             low, high = max(low, min(t1, t2)), min(high, max(t1, t2))
-    return 0.5 * (low + high)
+    return lowest(low, high, dot(direction, u))
 
 
 @kernel

@@ -51,7 +51,7 @@ class Clearance:
 
     @property
     def nearest(self) -> int | np.ndarray:
-        """Which pair attains the minimum, int or (N,); of several the first."""
+        """Which pair attains the minimum, int or (N,); of several the first. Needs a pair."""
         pair = self.distance.argmin(axis=-1)
         return int(pair) if pair.ndim == 0 else pair
 

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import InputError
 from .hull import ConvexHull
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
-from .shapes import Box, Capsule, HalfSpace, Shape, Sphere
+from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 
 _PAIR = np.array([[0, 1]])
 _FIRST = np.zeros((1, 2), dtype=np.int64)
@@ -62,4 +62,6 @@ def signed_distance(a: Shape, b: Shape) -> Witness:
         case ConvexHull():
             pose = np.eye(3, 4)[np.newaxis, np.newaxis]
             capsules_hull(ends, radius, pose, b.polytope, 0, _FIRST, distance, witness)
+        case _:
+            raise not_a_shape("signed_distance", b)
     return Witness(float(distance[0, 0]), *witness[0, 0])

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
-from .quantities import array_of
+from .quantities import array_of, finite_pose
 from .shapes import Box, Capsule, Sphere
 
 
@@ -36,7 +36,7 @@ class _Track:
     def _locate(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Sample before each time and the fraction of the way to the next, held outside."""
         position = np.interp(time, self.index, np.arange(len(self.index)))
-        before = np.minimum(position.astype(int), max(len(self.index) - 2, 0))
+        before = position.astype(int)
         return before, position - before
 
     def _cumulative(self, time: np.ndarray, steps: np.ndarray) -> np.ndarray:
@@ -117,6 +117,11 @@ class MovingShape:
     shape: Sphere | Capsule | Box | ConvexHull
     path: PosePath
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.shape, Sphere | Capsule | Box | ConvexHull):
+            expected = "Sphere, Capsule, Box or ConvexHull"
+            raise InputError("MovingShape", "shape", self.shape, expected)
+
 
 @dataclass(frozen=True, eq=False)
 class MovingArm:
@@ -127,4 +132,5 @@ class MovingArm:
     placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
 
     def __post_init__(self) -> None:
+        finite_pose("MovingArm", "placement", self.placement)
         self.arm.configurations(self.path.configurations)

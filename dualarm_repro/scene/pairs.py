@@ -61,10 +61,15 @@ def find_pairs(
     exempt: Collection[tuple[str, str]],
     self_collision: bool,
 ) -> Pairs:
-    """Every link of a controlled arm against every other body, except
+    """Every link of a controlled arm against every other body, with four exceptions.
 
-    two bodies that never move, the links of one arm that are neighbours or overlap whatever the
-    configuration (:func:`always_overlapping`), and the exempt pairs.
+    Left out are two bodies that never move, neighbouring links of one arm, links of one arm that
+    overlap in every configuration (:func:`always_overlapping`), and the exempt pairs.
+
+    Raises
+    ------
+    UnknownNameError
+        An exempt name that no body or owner has.
     """
     for pair in exempt:
         for name in pair:

@@ -51,7 +51,7 @@ def place(scene: Scene, q: np.ndarray, time: np.ndarray) -> Placed:
 def arm_frames(scene: Scene, q: np.ndarray) -> list[np.ndarray]:
     """Link frames (N, nq_arm + 1, 3, 4) of every controlled arm for q (N, nq)."""
     return [
-        _frames(placed.arm, placed.placement, q[:, scene.columns[placed.name]])
+        _frames(placed.arm, placed.placement, q[:, scene.columns[placed.name]].copy())
         for placed in scene.arms
     ]
 

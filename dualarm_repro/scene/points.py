@@ -18,7 +18,7 @@ from .compiled import kernel
 from .hull import ConvexHull
 from .polytope import segment_polytope
 from .segments import CORES_MEET, projected
-from .shapes import Box, HalfSpace, Shape
+from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 from .vectors import along, dot, into_frame, minus, perpendicular, rotated, scaled, vector
 
 
@@ -107,8 +107,10 @@ def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndar
                 d[:], g[:] = rows @ shape.normal - shape.offset, shape.normal
             case ConvexHull():
                 to_hull(rows, shape.polytope, d, g)
-            case _:
+            case Sphere() | Capsule():
                 to_capsule(rows, shape.core, shape.radius, d, g)
+            case _:
+                raise not_a_shape("point_distances", shape)
     leading = points.shape[:-1]
     return (
         np.moveaxis(distance, 0, -1).reshape(*leading, -1),

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiled import kernel
-from .segments import CORES_MEET, clamped, closest_parameters
+from .segments import CORES_MEET, ROUNDING, clamped, closest_parameters, lowest
 from .vectors import along, cross, dot, minus, scaled, vector
 
 
@@ -54,7 +54,7 @@ def highest_plane(a, u, polytope):
                 continue
             m = scaled((1.0 if dot(m, along(n1, 1.0, n2)) > 0.0 else -1.0) / length, m)
             lower = dot(m, minus(a, b)) + min(dot(m, u), 0.0)
-            if lower > height:
+            if lower > height + ROUNDING:
                 height, normal, face, edge = lower, m, -1, e
     return height, normal, face, edge
 
@@ -102,10 +102,7 @@ def deepest_parameter(a, u, polytope, height, normal, face, edge):
         b = vector(polytope.vertices[polytope.edges[edge, 0]])
         v = minus(vector(polytope.vertices[polytope.edges[edge, 1]]), b)
         return closest_parameters(along(a, -height, normal), u, b, v)[0]
-    climb = dot(normal, u)
-    if abs(climb) > CORES_MEET:
-        return 0.0 if climb > 0.0 else 1.0
-    low, high = 0.0, 1.0
+    low, high = 0.0, 1.0  # the part that leaves through this face
     out = along(a, -height, normal)
     for f in range(len(polytope.planes)):
         n = vector(polytope.planes[f])
@@ -116,7 +113,7 @@ def deepest_parameter(a, u, polytope, height, normal, face, edge):
                 high = min(high, t)
             else:
                 low = max(low, t)
-    return 0.5 * (low + high)
+    return lowest(low, high, dot(normal, u))
 
 
 @kernel

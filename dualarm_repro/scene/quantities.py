@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
@@ -37,6 +38,14 @@ def unit3(source: str, name: str, value: ArrayLike) -> np.ndarray:
     if not (length := np.linalg.norm(direction)) > 0:
         raise InputError(source, name, value, "a vector that is not zero")
     return frozen(direction / length)
+
+
+def finite_pose(source: str, name: str, value: pin.SE3) -> None:
+    """Refuse a pose with NaN or infinity, or something that is no pose."""
+    expected = "a finite pinocchio.SE3"
+    if not isinstance(value, pin.SE3):
+        raise InputError(source, name, value, expected)
+    array_of(source, name, value.homogeneous, (4, 4), expected)
 
 
 def array_of(

@@ -112,6 +112,9 @@ class Scene:
         if set(q) != set(self.columns):
             raise UnknownNameError("scene", "arms", sorted(q), f"all of {', '.join(self.columns)}")
         parts = [placed.arm.configurations(q[placed.name]) for placed in self.arms]
+        lengths = [part.shape[:-1] for part in parts]
+        if len(set(lengths)) > 1:
+            raise ConfigurationError("scene", "rows of the arms", lengths, "as many for each arm")
         return np.concatenate(parts, axis=-1)
 
     def configurations(self, q: ArrayLike) -> np.ndarray:

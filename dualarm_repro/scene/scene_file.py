@@ -199,20 +199,17 @@ def json_schema() -> dict[str, Any]:
 
 
 def _placed(path: Path, name: str, entry: ArmEntry) -> PlacedArm:
+    placement = pin.SE3(pin.rpy.rpyToMatrix(*entry.rpy), np.array(entry.xyz))
     beside = path.parent / entry.robot
     robot = beside if beside.is_file() else entry.robot
     try:
         arm = load_arm(robot, flange=entry.flange, lock=entry.lock)
-        start, goal = (
-            None if q is None else arm.configurations(q) for q in (entry.start, entry.goal)
-        )
+        return PlacedArm(name, arm, placement, entry.start, entry.goal)
     except DataFileError:
         raise
     except InputError as error:
         field = f"arms.{name}: {error.field}"
         raise DataFileError(path, field, error.value, error.expected) from None
-    placement = pin.SE3(pin.rpy.rpyToMatrix(*entry.rpy), np.array(entry.xyz))
-    return PlacedArm(name, arm, placement, start, goal)
 
 
 def _shape(path: Path, name: str, entry: Any) -> Shape | tuple[Box, ...]:

@@ -16,12 +16,23 @@ from .vectors import along, cross, dot, minus, perpendicular, scaled
 CORES_MEET = 1e-10
 # Squared sine below which two segments count as parallel; the distance errs by 1e-10 of a length.
 PARALLEL = 1e-20
+# An exit past an edge must be shorter than one through a face by more than rounding [m]: where an
+# edge axis coincides with a face normal, only the face knows where the bodies touch.
+ROUNDING = 1e-12
 
 
 @kernel
 def clamped(s, low, high):
     """s limited to [low, high]."""
     return min(max(s, low), high)
+
+
+@kernel
+def lowest(low, high, climb):
+    """Parameter in [low, high] where a height of slope ``climb`` is least; of many, the middle."""
+    if abs(climb) <= CORES_MEET:
+        return 0.5 * (low + high)
+    return low if climb > 0.0 else high
 
 
 @kernel

@@ -140,6 +140,11 @@ class HalfSpace:
 Shape = Sphere | Capsule | Box | HalfSpace | ConvexHull
 
 
+def not_a_shape(source: str, value: object) -> InputError:
+    """The error for something that is none of the shapes."""
+    return InputError(source, "shape", value, "Sphere, Capsule, Box, HalfSpace or ConvexHull")
+
+
 def _set(shape: object, **values: object) -> None:
     for name, value in values.items():
         object.__setattr__(shape, name, value)

@@ -29,12 +29,17 @@ def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> str:
     )
 
 
-def card_html(made: dict[str, Any]) -> str:
-    """Verdict card of a record."""
-    parts = [
+def head_html(made: dict[str, Any]) -> str:
+    """Id, verdict, title and place of a record on one line."""
+    return (
         f'<p class="ledger-head"><code>{made["id"]}</code> {badge(made["verdict"])} '
         f"<span>{escape(made['title'])} ({escape(made['kind'])}, {escape(made['place'])})</span></p>"
-    ]
+    )
+
+
+def card_html(made: dict[str, Any]) -> str:
+    """What a verdict rests on: checks, assumptions, errata, missing data, robustness."""
+    parts = []
     if made["pending"]:
         parts.append(f"<p>Not attempted: {escape(made['pending'])}</p>")
     if made["change"]:

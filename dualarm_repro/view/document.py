@@ -5,12 +5,12 @@ from __future__ import annotations
 from html import escape
 
 from ..errors import UnknownNameError
-from ..ledger import Registry, record
+from ..ledger import Registry
 from ..ledger.cite import bibtex
 from ..ledger.record import erratum_record
 from ..ledger.schema import PaperFile
-from .badge import badge
 from .card import erratum_html
+from .item_table import item_table
 from .page import Page
 
 
@@ -34,19 +34,9 @@ def document_page(registry: Registry, paper: str) -> Page:
 
 
 def items_page(registry: Registry, paper: str) -> Page:
-    """All items of a document with verdict and, where there is none yet, the declared reason."""
-    made = [record(registry, f"{paper}.{key}") for key in _paper(registry, paper).items]
-    rows = "".join(
-        f"<tr><td><code>{entry['id']}</code></td><td>{escape(entry['place'])}</td>"
-        f"<td>{escape(entry['title'])}</td><td>{badge(entry['verdict'])}</td>"
-        f"<td>{escape(entry['pending'] or entry['caption'] or '')}</td></tr>"
-        for entry in made
-    )
-    head = "<tr><th>id</th><th>place</th><th>title</th><th>verdict</th><th>why</th></tr>"
-    return Page(
-        f'<div class="ledger-scroll"><table class="ledger-items" id="{paper}.items">'
-        f"<thead>{head}</thead><tbody>{rows}</tbody></table></div>"
-    )
+    """All items of a document with verdict and reason, for a page one folder below the top."""
+    ids = (f"{paper}.{key}" for key in _paper(registry, paper).items)
+    return Page(item_table(registry, ids, root="../"))
 
 
 def errata_page(registry: Registry, paper: str) -> Page:

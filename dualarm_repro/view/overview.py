@@ -8,9 +8,9 @@ from typing import Any
 import pandas as pd
 
 from ..ledger import Registry, Verdict, record
-from ..ledger.registry import Checker
 from .badge import badge
 from .card import legend_html
+from .item_table import item_table
 from .page import Page
 
 _SCRIPT = """
@@ -50,16 +50,18 @@ def verdict_counts(registry: Registry) -> pd.DataFrame:
 
 
 def counts_page(registry: Registry) -> Page:
-    """Verdict counts as a table with badges."""
+    """Verdict counts as a table with badges, one column per document."""
     table = verdict_counts(registry)
-    head = "".join(f"<th>{badge(c) if c != 'total' else 'total'}</th>" for c in table.columns)
+    head = "".join(f"<th>{name}</th>" for name in table.index)
     rows = "".join(
-        f"<tr><th>{name}</th>" + "".join(f"<td>{value}</td>" for value in row) + "</tr>"
-        for name, row in table.iterrows()
+        f"<tr><th>{badge(name) if name != 'total' else name}</th>"
+        + "".join(f"<td>{value}</td>" for value in column)
+        + "</tr>"
+        for name, column in table.items()
     )
     return Page(
         '<div class="ledger-scroll"><table class="ledger-counts" id="verdict-counts">'
-        f"<tr><th>document</th>{head}</tr>{rows}</table></div>"
+        f"<tr><th>verdict</th>{head}</tr>{rows}</table></div>"
     )
 
 
@@ -75,28 +77,15 @@ def ledger_page(registry: Registry) -> Page:
     """
     records = [record(registry, item_id) for item_id in registry.items]
     choices = "".join(_select(name, records) for name in ("paper", "kind", "verdict"))
-    rows = "".join(_row(made, registry.checkers.get(made["id"])) for made in records)
     return Page(
         f'<div id="ledger-table"><p class="ledger-filter">{choices}'
         '<label>words <input type="search"></label> <output></output></p>'
-        '<div class="ledger-scroll"><table><thead><tr><th>id</th><th>kind</th><th>verdict</th>'
-        f"<th>title</th><th>why</th></tr></thead><tbody>{rows}</tbody></table></div></div>"
-        f"<script>{_SCRIPT}</script>"
+        f"{item_table(registry, registry.items)}</div><script>{_SCRIPT}</script>"
     )
 
 
 def _select(name: str, records: list[dict[str, Any]]) -> str:
     values = dict.fromkeys(made[name] for made in records)
     options = "".join(f"<option>{escape(value)}</option>" for value in values)
-    return f'<label>{name} <select name="{name}"><option value="">all</option>{options}</select></label> '
-
-
-def _row(made: dict[str, Any], checker: Checker | None) -> str:
-    code = f"<code>{made['id']}</code>"
-    name = f'<a href="{checker.page}.html#{made["id"]}">{code}</a>' if checker else code
-    why = made["pending"] or made["caption"] or ""
-    data = f'data-paper="{made["paper"]}" data-kind="{made["kind"]}" data-verdict="{made["verdict"]}"'
-    return (
-        f"<tr {data}><td>{name}</td><td>{made['kind']}</td><td>{badge(made['verdict'])}</td>"
-        f"<td>{escape(made['title'])}</td><td>{escape(why)}</td></tr>"
-    )
+    menu = f'<select name="{name}"><option value="">all</option>{options}</select>'
+    return f"<label>{name} {menu}</label> "

@@ -9,7 +9,7 @@ from ..ledger import Registry, evaluate, record
 from ..ledger.cite import cite
 from ..ledger.files import to_json
 from ..ledger.record import compose
-from .card import card_html, figure_html
+from .card import card_html, figure_html, head_html
 
 
 class Page:
@@ -36,7 +36,7 @@ def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:
     made = (
         json.loads(to_json(compose(registry, evaluation))) if fresh else record(registry, item_id)
     )
-    parts = []
+    parts = [head_html(made)]
     if result is not None:
         if result.figure:
             parts.append(figure_html(result.figure(), result.alt, result.caption))

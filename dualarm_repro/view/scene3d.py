@@ -26,13 +26,22 @@ class Scene3D:
         Shown below the scene and to screen readers: what is to be seen.
     camera
         Position of the camera in the world frame, metres.
+    grid
+        Whether the floor grid is drawn; its cells of half a metre suit large arms.
     """
 
-    def __init__(self, title: str, camera: tuple[float, float, float], height: int = 420) -> None:
+    def __init__(
+        self,
+        title: str,
+        camera: tuple[float, float, float],
+        height: int = 420,
+        grid: bool = True,
+    ) -> None:
         self.title, self._height = title, height
         self._vis = static_visualizer()
         self._vis["/Background"].set_property("top_color", [1.0, 1.0, 1.0])
         self._vis["/Background"].set_property("bottom_color", [0.93, 0.94, 0.96])
+        self._vis["/Grid"].set_property("visible", grid)
         x, y, z = camera
         # Inside the camera's node y points up.
         self._vis["/Cameras/default/rotated/<object>"].set_property("position", [x, z, -y])
@@ -98,6 +107,13 @@ class Scene3D:
         lengths = [float(length) for length in size]
         self._vis[name].set_object(mg.Box(lengths), _material(color, 1.0))
         self._vis[name].set_transform(np.asarray(pose, dtype=float))
+
+    def add_mesh(
+        self, name: str, vertices: np.ndarray, faces: np.ndarray, color: str, opacity: float = 1.0
+    ) -> None:
+        """Draw a surface of triangles ``faces`` (F, 3), rows of ``vertices`` (V, 3)."""
+        mesh = mg.TriangularMeshGeometry(np.asarray(vertices), np.asarray(faces))
+        self._vis[name].set_object(mesh, _material(color, opacity))
 
     def add_sphere(self, name: str, center: np.ndarray, radius: float, color: str) -> None:
         """Draw a sphere."""

@@ -82,8 +82,8 @@ def two_arms(obstacles=True, name="irb120", **options):
         "ball": Sphere((0.0, 0.3, 0.6), 0.1),
         "pole": Capsule((0.4, 0.5, 0.0), (0.4, 0.5, 1.0), 0.05),
         "window": window_frame((0.0, 0.45, 0.5), facing((1.0, 0.2, 0.0)), 0.6, 0.6, 0.1, 0.08),
-        "wall": HalfSpace((0.0, 1.0, 0.0), -0.5),
-        "stone": ConvexHull(0.1 * rng.normal(size=(14, 3)) + [0.0, 0.6, 0.3]),
+        "wall": HalfSpace((0.0, 1.0, 0.0), -0.3),
+        "stone": ConvexHull(0.15 * rng.normal(size=(14, 3)) + [0.1, 0.45, 0.3]),
     }
     return Scene(arms, things if obstacles else {}, **options)
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from examples import lengths, placements, points, thorough
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
@@ -31,6 +31,7 @@ def test_the_nearest_point_is_the_minimum_of_a_convex_function(a, u, h):
 
 
 @given(points, points, sizes)
+@example((0.0, 0.5, 0.0), (0.0, -1.0, 0.447473), (0.5, 0.25, 0.75))  # edge axis = face normal
 @thorough
 def test_witness(a, u, h):
     distance, p, q, normal = segment_box(a, u, h)
@@ -55,7 +56,7 @@ def test_no_direction_leads_out_of_the_box_faster(start, u, h, placement):
 
 
 def test_the_exit_separates():
-    """Moved out by the depth the segment touches: its distance is zero, a bit further it is free."""
+    """Moved out by the depth the segment touches, a bit further it is free."""
     rng = np.random.default_rng(0)
     inside = 0
     for _ in range(1000):

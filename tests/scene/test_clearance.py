@@ -54,7 +54,7 @@ def pinocchio_twin(scene):
 
 def test_agrees_with_pinocchio_on_a_pair_of_irb120():
     """All pairs of both arms, their obstacles, the window, a hull and the floor."""
-    scene = two_arms(floor=-0.2)
+    scene = two_arms(floor=0.1)
     model, geometry = pinocchio_twin(scene)
     data, geometry_data = model.createData(), geometry.createData()
     for request in geometry_data.distanceRequests:
@@ -73,7 +73,7 @@ def test_agrees_with_pinocchio_on_a_pair_of_irb120():
 
 
 def test_witnesses_are_those_of_the_single_pairs():
-    scene = two_arms(floor=-0.2)
+    scene = two_arms(floor=0.1)
     q = np.random.default_rng(1).uniform(-1.5, 1.5, (10, 12))
     found = clearance(scene, q)
     across = found.point_a + found.distance[..., None] * found.normal
@@ -91,7 +91,7 @@ def test_witnesses_are_those_of_the_single_pairs():
 
 def test_one_and_many_configurations_agree():
     """More configurations than one block, one by one and without witnesses."""
-    scene = two_arms(floor=-0.2)
+    scene = two_arms(floor=0.1)
     q = np.random.default_rng(2).uniform(-1, 1, (1100, 12))
     many, bare = clearance(scene, q), distances(scene, q)
     assert many.distance.shape == (1100, len(scene.pairs))

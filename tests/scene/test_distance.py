@@ -75,7 +75,7 @@ def test_a_given_gap_is_found_also_in_contact(second, gap):
 @given(round_shapes, shapes)
 @thorough
 def test_the_translation_along_the_normal_separates(a, b):
-    """Signed distance in penetration: moved out by it the shapes touch, a bit more and they part."""
+    """Moved out by the penetration depth the shapes touch, a bit more and they part."""
     found = signed_distance(a, b)
     for extra in (0.0, 1e-3):
         out = pin.SE3(np.eye(3), (min(found.distance, 0.0) - extra) * found.normal)
@@ -185,6 +185,11 @@ def test_normal_is_continuous_through_contact_and_penetration():
         found = signed_distance(Capsule(start, start + tilted, 0.1), box)
         assert found.distance == pytest.approx(height - 0.5 - 0.1, abs=1e-12)
         np.testing.assert_allclose(found.normal, -up, atol=1e-9)
+
+
+def test_what_is_no_shape_is_refused():
+    with pytest.raises(InputError, match="signed_distance: shape = 'wall'"):
+        signed_distance(Sphere((0, 0, 0), 1), "wall")
 
 
 def test_two_boxes_are_refused():

@@ -15,7 +15,7 @@ from dualarm_repro.scene import (
 
 @pytest.fixture(scope="module")
 def scene():
-    return two_arms(floor=-0.2)
+    return two_arms(floor=0.1)
 
 
 def numeric(scene, q, time=0.0):
@@ -46,7 +46,7 @@ def test_single_configuration(scene):
 
 def contact_between(scene, pair, start, end, level=0.0):
     """Configuration on the way from start to end at which one distance passes a level."""
-    q = start + np.linspace(0, 1, 400)[:, None] * (end - start)
+    q = start + np.linspace(0, 1, 100)[:, None] * (end - start)
     d = distances(scene, q)[:, pair] - level
     k = np.flatnonzero(d[:-1] * d[1:] < 0)
     if not len(k):
@@ -83,7 +83,7 @@ def test_deep_penetration_with_the_core_inside(scene, sort):
     rng = np.random.default_rng(3)
     of_sort = [k for k, (_, b) in enumerate(scene.pairs.bodies) if b.sort == sort]
     radius = scene.bodies.radius[[scene.pairs.bodies[k][0].row for k in of_sort]]
-    q = rng.uniform(-1.5, 1.5, (400, 12))
+    q = rng.uniform(-1.5, 1.5, (1000, 12))
     deep = distances(scene, q)[:, of_sort] < -radius - 0.005
     cases = np.argwhere(deep)[:40]
     assert len(cases) == 40

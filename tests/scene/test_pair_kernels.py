@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from examples import random_box, random_capsule
+from examples import random_box
 
 from dualarm_repro.scene import Capsule, HalfSpace, signed_distance
 from dualarm_repro.scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes

@@ -41,7 +41,9 @@ def test_every_link_meets_every_obstacle(scene):
 
 def test_links_of_two_arms_meet_but_not_their_bases(scene):
     left, right = ([b for b in scene.bodies.all if b.owner == arm] for arm in ("left", "right"))
-    between = {pair for pair in scene.pairs.names if pair[0][:4] == "left" and pair[1][:5] == "right"}
+    between = {
+        pair for pair in scene.pairs.names if pair[0][:4] == "left" and pair[1][:5] == "right"
+    }
     assert len(between) == len(left) * len(right) - 1
     assert ("left/capsule_0_joint_0", "right/capsule_0_joint_0") not in between
 

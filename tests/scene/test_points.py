@@ -101,6 +101,11 @@ def test_center_of_a_sphere_and_of_a_box_have_a_stated_gradient():
     np.testing.assert_array_equal(gradient[0], (0, 0, 1))
 
 
+def test_what_is_no_shape_is_refused():
+    with pytest.raises(InputError, match="point_distances: shape = 'wall'"):
+        point_distances((0, 0, 0), ["wall"])
+
+
 @pytest.mark.parametrize("p", [(0, 0), (0, 0, np.nan), [[0, 0, np.inf]], 3.0])
 def test_bad_points(p):
     with pytest.raises(InputError, match="point_distances: points"):

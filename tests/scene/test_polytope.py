@@ -5,6 +5,7 @@ from examples import judged, points, random_capsule, seeds, thorough
 from hypothesis import given
 
 from dualarm_repro.scene import Capsule, ConvexHull, signed_distance
+from dualarm_repro.scene.boxes import segment_box
 from dualarm_repro.scene.polytope import segment_polytope
 
 CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
@@ -91,3 +92,22 @@ def test_a_segment_across_an_edge_leaves_over_the_edge():
     assert np.abs(found.normal).max() < 0.99
     assert found.normal @ (end - start) == pytest.approx(0, abs=1e-9)
     assert found.distance == pytest.approx(judged(Capsule(start, end, 0.01), hull)[0], abs=1e-9)
+
+
+def test_a_box_and_its_hull_agree_where_everything_is_aligned():
+    """Grid coordinates: parallel edges, shared planes and ties of every kind."""
+    rng = np.random.default_rng(3)
+    for size in ((1, 1, 1), (1, 0.5, 1.5), (2, 1, 0.5)):
+        h = tuple(0.5 * np.array(size))
+        box = ConvexHull(CUBE * h).polytope
+        for a, u in 0.25 * rng.integers(-6, 7, (1500, 2, 3)):
+            a, u = tuple(a), tuple(u)
+            by_box, by_hull = segment_box(a, u, h), segment_polytope(a, u, box)
+            assert by_box[0] == pytest.approx(by_hull[0], abs=1e-12)
+            for distance, p, q, normal in (by_box, by_hull):
+                np.testing.assert_allclose(np.add(p, distance * np.array(normal)), q, atol=1e-9)
+                beyond = np.abs(q) - h
+                assert beyond.max() == pytest.approx(0, abs=1e-9)  # q is on the surface
+                ends = np.array([a, np.add(a, u)]) @ normal
+                between_planes = -np.abs(normal) @ np.array(h) - ends.max()
+                assert between_planes == pytest.approx(distance, abs=1e-9)

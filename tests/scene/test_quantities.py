@@ -16,7 +16,7 @@ def test_good_values_come_back_as_read_only_floats():
 
 def test_any_length_where_none_is_given():
     assert array_of("here", "path", [[1, 2], [3, 4], [5, 6]], (None, 2), "rows").shape == (3, 2)
-    with pytest.raises(InputError, match="here: path = .*: expected rows"):
+    with pytest.raises(InputError, match=r"here: path = .*: expected rows"):
         array_of("here", "path", [[1, 2, 3]], (None, 2), "rows")
 
 

@@ -6,7 +6,9 @@ from examples import two_arms
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import ConfigurationError, InputError, UnknownNameError
 from dualarm_repro.scene import (
+    HalfSpace,
     JointPath,
+    MovingArm,
     MovingShape,
     PlacedArm,
     PosePath,
@@ -36,6 +38,8 @@ def test_bad_joint_vectors():
         scene.stack(left=np.zeros(6))
     with pytest.raises(ConfigurationError, match="irb120: shape of q"):
         scene.stack(left=np.zeros(5), right=np.zeros(6))
+    with pytest.raises(ConfigurationError, match=r"rows of the arms.*as many for each arm"):
+        scene.stack(left=np.zeros((2, 6)), right=np.zeros(6))
     for bad in (np.zeros(11), np.zeros((1, 1, 12)), np.full(12, np.nan), "q", [[1], [1, 2]]):
         with pytest.raises(ConfigurationError, match=r"scene: .*q.*expected 12 finite numbers"):
             clearance(scene, bad)
@@ -56,12 +60,35 @@ def test_bad_time(time):
         ({"obstacles": {"": BALL}}, "Scene: name = ''"),
         ({"obstacles": {"floor": BALL}, "floor": 0.0}, "Scene: name = 'floor'"),
         ({"floor": np.nan}, "HalfSpace: offset = nan"),
+        (
+            {"obstacles": {"ball": "round"}},
+            "obstacle ball/0: shape = 'r': expected Sphere, Capsule",
+        ),
+        ({"obstacles": {"ball": None}}, "obstacle ball: shape = None"),
     ],
 )
 def test_bad_scenes(options, message):
     arms = [PlacedArm("arm", load_arm("irb120"))]
     with pytest.raises(InputError, match=message):
         Scene(**{"arms": arms, **options})
+
+
+def test_bad_arms():
+    arm = load_arm("irb120")
+    nowhere = pin.SE3(np.eye(3), np.array([0, 0, np.nan]))
+    with pytest.raises(InputError, match=r"arm a: placement.*finite pinocchio\.SE3"):
+        PlacedArm("a", arm, nowhere)
+    with pytest.raises(InputError, match="arm a: placement"):
+        PlacedArm("a", arm, (0, 0, 0))
+    with pytest.raises(InputError, match="MovingArm: placement"):
+        MovingArm(arm, JointPath(np.zeros((1, 6))), nowhere)
+    with pytest.raises(ConfigurationError, match="irb120: shape of q"):
+        PlacedArm("a", arm, start=np.zeros(7))
+
+
+def test_half_space_cannot_move():
+    with pytest.raises(InputError, match=r"MovingShape: shape.*Sphere, Capsule, Box or ConvexHull"):
+        MovingShape(HalfSpace((0, 0, 1), 0), PosePath([pin.SE3.Identity()]))
 
 
 def test_moving_name_may_not_repeat_another():

@@ -11,7 +11,7 @@ from dualarm_repro.arms import load_arm
 from dualarm_repro.ledger import MEANING, Verdict
 from dualarm_repro.papers import show
 from dualarm_repro.view.badge import SIGN, badge
-from dualarm_repro.view.card import card_html, short
+from dualarm_repro.view.card import card_html, head_html, short
 from dualarm_repro.view.overview import counts_page, ledger_page, verdict_counts
 from dualarm_repro.view.scene3d import Scene3D
 
@@ -34,7 +34,7 @@ def test_card_escapes_text():
         "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True}],
         "assumptions": [], "errata": [], "robustness": None,
     }  # fmt: skip
-    html = card_html(made)
+    html = head_html(made) + card_html(made)
     assert "<script>" not in html
     assert "a &lt; b" in html
     assert html.count("<details>") == html.count("</details>") == 1

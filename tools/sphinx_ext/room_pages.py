@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from typing import Any
 
 from docutils import nodes
@@ -19,11 +19,11 @@ class Room(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         package = import_module(self.arguments[0])
+        prefix = f"{package.__name__}."
         lines = []
-        for module in iter_modules(package.__path__):
-            name = f"{package.__name__}.{module.name}"
-            lines += [f".. rubric:: {module.name}", ""]
-            lines += [f".. automodule:: {name}", "   :members:", ""]
+        for module in walk_packages(package.__path__, prefix):
+            lines += [f".. rubric:: {module.name.removeprefix(prefix)}", ""]
+            lines += [f".. automodule:: {module.name}", "   :members:", ""]
         block = nodes.Element()
         self.state.nested_parse(StringList(lines, self.arguments[0]), 0, block)
         return block.children

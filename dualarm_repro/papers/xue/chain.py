@@ -110,9 +110,19 @@ def _register_link(k: int) -> None:
     @checks(
         f"xue.eq{k + 1:02d}",
         rules=[
-            Is(key="equals_eq_1", value=True, label="equals (1), corrected, for this link's parameters"),
-            Is(key="equals_dh", value=True, label="equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm"),
-            Bounded(key="pinocchio", high=1e-12, label="largest difference to Pinocchio's placement"),
+            Is(
+                key="equals_eq_1",
+                value=True,
+                label="equals (1), corrected, for this link's parameters",
+            ),
+            Is(
+                key="equals_dh",
+                value=True,
+                label="equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm",
+            ),
+            Bounded(
+                key="pinocchio", high=1e-12, label="largest difference to Pinocchio's placement"
+            ),
         ],
     )
     def link_transform(assumed: Assumed) -> Result:
@@ -138,7 +148,11 @@ for _k in LINKS:
 @checks(
     "xue.eq08",
     rules=[
-        Is(key="product_is_dh", value=True, label="product of the printed matrices is the arm's T(q)"),
+        Is(
+            key="product_is_dh",
+            value=True,
+            label="product of the printed matrices is the arm's T(q)",
+        ),
         Bounded(key="pinocchio", high=1e-12, label="largest difference to Pinocchio"),
         Bounded(key="kernel", high=1e-12, label="largest difference to the batch kernel"),
         Bounded(key="orthonormal", high=1e-12, label="n, o, a are orthonormal to"),

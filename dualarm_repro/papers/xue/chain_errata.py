@@ -34,7 +34,9 @@ def table1_shift() -> Proof:
     return Proof(
         "the printed column equals that of the matrices moved up one row; the readings agree at the "
         "start, where only the sum of the lengths counts, and not at the goal",
-        column == [*matrices[1:], 0.0] and column != matrices and ends["start"] < 1e-12 < ends["goal"],
+        column == [*matrices[1:], 0.0]
+        and column != matrices
+        and ends["start"] < 1e-12 < ends["goal"],
         {
             "flange_difference_start": ends["start"],
             "flange_difference_goal": ends["goal"],
@@ -95,7 +97,10 @@ def start_outside_limits() -> Proof:
     return Proof(
         "axis L is beyond its range at the printed start and within it at the printed goal",
         bool(excess[1] > 0 and MASTER_GOAL[1] < arm.upper[1]),
-        {"axis_L_at_start_deg": float(90 + np.rad2deg(MASTER_START[1])), "beyond_range_deg": float(excess[1])},
+        {
+            "axis_L_at_start_deg": float(90 + np.rad2deg(MASTER_START[1])),
+            "beyond_range_deg": float(excess[1]),
+        },
     )
 
 

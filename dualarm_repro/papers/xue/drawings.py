@@ -97,7 +97,9 @@ def link_frames(assumed: Assumed) -> Result:
     "xue.fig03",
     rules=[
         Bounded(
-            key="mirror_error", high=1e-12, label="the slave is the reflection of the master, to [m]"
+            key="mirror_error",
+            high=1e-12,
+            label="the slave is the reflection of the master, to [m]",
         ),
         NeedsPrinted(key="bases", label="the base poses"),
     ],
@@ -115,7 +117,9 @@ def both_arms(assumed: Assumed) -> Result:
     error = float(abs(tips["master"] * flip - tips["slave"]).max())
 
     def scene() -> Scene3D:
-        made = Scene3D(f"Both arms of the document at the printed {posture}.", camera=(6.0, -3.0, 2.5))
+        made = Scene3D(
+            f"Both arms of the document at the printed {posture}.", camera=(6.0, -3.0, 2.5)
+        )
         made.add_arm("master", master, q, left, MASTER)
         made.add_arm("slave", slave, -q, right, SLAVE)
         return made

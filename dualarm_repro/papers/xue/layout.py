@@ -83,16 +83,14 @@ def arms_of(dh_source: str) -> tuple[Arm, Arm]:
     return master, load_arm("es165d-slave") if dh_source == "matrices" else master.mirrored()
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def placed_master(layout: Layout) -> PlacedArm:
     """The master on its base, with the printed start and goal."""
     placement = pin.SE3(np.eye(3), layout.master_base)
-    return PlacedArm(
-        "master", arms_of(layout.dh_source)[0], placement, MASTER_START, MASTER_GOAL
-    )
+    return PlacedArm("master", arms_of(layout.dh_source)[0], placement, MASTER_START, MASTER_GOAL)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def placed_slave(layout: Layout) -> PlacedArm | None:
     """The slave on its base, with postures at Start and End; None where one is out of reach."""
     arm, base = arms_of(layout.dh_source)[1], layout.slave_base

@@ -21,10 +21,10 @@ from ...planning.settings import (
 from .scenario import GAINS
 
 POSITION_TOLERANCE = 0.02  # [m] of the traditional method, which has no goal angles
-_COMBINATIONS = {"sum_over_bars": Combination.SUM, "nearest_bar": Combination.NEAREST}
+COMBINATIONS = {"sum_over_bars": Combination.SUM, "nearest_bar": Combination.NEAREST}
 _BLOCK = 50  # steps
-_VIRTUAL_STEPS = 400
-_VIRTUAL_TRIES = 5
+_VIRTUAL_STEPS = 200
+_VIRTUAL_TRIES = 3
 #: Change of the potential over a block below which it counts as stalled.
 _STALL = 1e-6
 
@@ -47,11 +47,17 @@ class Method:
     virtual_release: float
     virtual_gain: float
     joint_term_weight: float
+    joint_limits_in_motion: str
 
     @classmethod
     def of(cls, assumed: Mapping[str, Any]) -> Self:
         """The settings that the assumptions describe."""
         return cls(**{field.name: assumed[field.name] for field in fields(cls)})
+
+    @property
+    def enforced(self) -> bool:
+        """Whether the joints are kept within the limits of the real robot."""
+        return self.joint_limits_in_motion == "enforced"
 
     def update(self) -> Update:
         """Joint step."""
@@ -75,7 +81,7 @@ class Method:
 
     def repulsion(self) -> Repulsion:
         """(10) and (14) with the printed k_r and d_0."""
-        combination = _COMBINATIONS[self.window_distance]
+        combination = COMBINATIONS[self.window_distance]
         return Repulsion(gain=GAINS["k_r"], influence=GAINS["d_0"], combination=combination)
 
     def virtual_point(self, centre: np.ndarray, joints: np.ndarray) -> VirtualPoint:
@@ -103,6 +109,7 @@ def improved(
         virtual_point=method.virtual_point(centre, goal) if virtual else None,
         update=method.update(),
         termination=method.termination(joints=True),
+        enforce_limits=method.enforced,
     )
 
 
@@ -115,12 +122,11 @@ def joint_term_only(method: Method) -> APFSettings:
         repulsion=method.repulsion(),
         update=method.update(),
         termination=method.termination(joints=True),
+        enforce_limits=method.enforced,
     )
 
 
-def traditional(
-    method: Method, reading: str, virtual_at: np.ndarray | None = None
-) -> APFSettings:
+def traditional(method: Method, reading: str, virtual_at: np.ndarray | None = None) -> APFSettings:
     """(9)-(12): the position attracts, the end effector or five points are repelled.
 
     Parameters
@@ -139,6 +145,7 @@ def traditional(
         virtual_point=point,
         update=method.update(),
         termination=method.termination(joints=False),
+        enforce_limits=method.enforced,
     )
 
 
@@ -149,4 +156,5 @@ def attraction_only(method: Method) -> APFSettings:
         control_points="end_effector",
         update=method.update(),
         termination=method.termination(joints=True),
+        enforce_limits=method.enforced,
     )

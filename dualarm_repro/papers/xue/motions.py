@@ -15,19 +15,10 @@ from ...planning.control_points import control_points
 from ...planning.obstacles import Obstacles, obstacles_of
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
-from ...scene import JointPath, MovingArm, PlacedArm, Scene
+from ...planning.master_slave import at_tool_speed
+from ...scene import JointPath, PlacedArm, Scene
 from .layout import Layout, placed_master, placed_slave
 from .methods import Method, attraction_only, improved
-
-_NOTHING = Obstacles(
-    (),
-    np.empty(0, dtype=np.int64),
-    np.empty((1, 0, 2, 3)),
-    np.empty(0),
-    np.empty((1, 0, 3, 4)),
-    np.empty((0, 3)),
-    np.empty((0, 4)),
-)
 
 
 @dataclass(frozen=True)
@@ -66,7 +57,7 @@ def attempt(
         return None
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def master_plan(layout: Layout, method: Method) -> Plan | None:
     """Fig. 8: the master past the window by the improved method."""
     placed = placed_master(layout)
@@ -77,22 +68,17 @@ def master_plan(layout: Layout, method: Method) -> Plan | None:
 @lru_cache(maxsize=64)
 def master_undisturbed(layout: Layout, method: Method) -> Plan:
     """The master under attraction alone."""
-    placed = placed_master(layout)
-    return plan_apf_compiled(
-        placed, placed.start, placed.goal, _NOTHING, attraction_only(method)
-    )
+    return _undisturbed(placed_master(layout), method)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def slave_undisturbed(layout: Layout, method: Method) -> Plan | None:
     """Fig. 9: the slave under attraction alone; None out of reach."""
     placed = placed_slave(layout)
-    if placed is None:
-        return None
-    return attempt(placed, placed.start, _NOTHING, attraction_only(method))
+    return None if placed is None else _undisturbed(placed, method)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def master_track(case: Case) -> JointPath | None:
     """Joint path of the master over the steps of the slave; None without a plan that arrives.
 
@@ -105,32 +91,22 @@ def master_track(case: Case) -> JointPath | None:
         return None
     if case.encounter.equal_speed_meaning == "same_step":
         return plan.joint_path()
-    speed = slave.tcp_length / slave.steps
-    pieces = np.linalg.norm(np.diff(plan.tcp, axis=0), axis=1)
-    return JointPath(plan.path, np.append(0.0, np.cumsum(pieces)) / speed)
+    return JointPath(plan.path, at_tool_speed(slave.tcp_length / slave.steps)(plan))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def slave_obstacles(case: Case) -> Obstacles | None:
     """Window and moving master as the slave's planner sees them."""
     track = master_track(case)
     if track is None:
         return None
-    layout, master = case.layout, placed_master(case.layout)
     whole = case.encounter.master_as_obstacle == "joint_points"
-    points = control_points(
-        master.arm, case.method.control_points if whole else "end_effector"
-    )
-    scene = Scene(
-        [placed_slave(layout)],
-        {"window": layout.window()},
-        {"master": MovingArm(master.arm, track, master.placement)},
-        self_collision=False,
-    )
-    return obstacles_of(scene, arm_points={"master": points})
+    master = placed_master(case.layout)
+    points = control_points(master.arm, case.method.control_points if whole else "end_effector")
+    return window_obstacles(case.layout).with_arm(master, points, track)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def slave_plan(case: Case) -> Plan | None:
     """Figs 10 and 11: the slave past window and moving master by the improved method."""
     obstacles = slave_obstacles(case)
@@ -141,16 +117,12 @@ def slave_plan(case: Case) -> Plan | None:
     return attempt(placed, placed.start, obstacles, settings)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def window_obstacles(layout: Layout) -> Obstacles:
     """The window alone."""
-    bars = layout.window()
-    return Obstacles(
-        tuple(f"window/{k}" for k in range(len(bars))),
-        np.zeros(len(bars), dtype=np.int64),
-        np.empty((1, 0, 2, 3)),
-        np.empty(0),
-        np.stack([bar.pose for bar in bars])[np.newaxis],
-        np.stack([bar.half for bar in bars]),
-        np.empty((0, 4)),
-    )
+    return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))
+
+
+def _undisturbed(placed: PlacedArm, method: Method) -> Plan:
+    nothing = obstacles_of(Scene([placed]))
+    return plan_apf_compiled(placed, placed.start, placed.goal, nothing, attraction_only(method))

@@ -25,7 +25,9 @@ def link_matrix(k: int) -> sp.Matrix:
     """Printed transform from link k-1 to link k, matrices (2)-(7), lengths as exact fractions."""
     printed = REGISTRY.item(f"xue.eq{k + 1:02d}").printed["matrix"]
     names = {f"theta_{k}": joint_variable(k)}
-    return sp.Matrix([[sp.sympify(cell, locals=names, rational=True) for cell in row] for row in printed])
+    return sp.Matrix(
+        [[sp.sympify(cell, locals=names, rational=True) for cell in row] for row in printed]
+    )
 
 
 @cache

@@ -13,7 +13,14 @@ from ...datafiles import data_path
 from .scenario import SEED
 
 READINGS = {"matrices": "es165d", "table": "es165d-table1", "published": "es165d-public"}
-_LENGTHS = {"a1": ("a", 1), "a2": ("a", 2), "a3": ("a", 3), "d1": ("d", 0), "d4": ("d", 3), "d6": ("d", 5)}
+_LENGTHS = {
+    "a1": ("a", 1),
+    "a2": ("a", 2),
+    "a3": ("a", 3),
+    "d1": ("d", 0),
+    "d4": ("d", 3),
+    "d6": ("d", 5),
+}
 
 
 def robot(reading: str) -> DHRobot:

@@ -30,8 +30,14 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
 @checks(
     "xue.claim_spherical_wrist",
     rules=[
-        Is(key="origins_coincide", value=True, label="frames 4, 5 and 6 less d_6 share their origin"),
-        Bounded(key="spread", high=1e-12, label="largest distance of the three axes' common point [m]"),
+        Is(
+            key="origins_coincide",
+            value=True,
+            label="frames 4, 5 and 6 less d_6 share their origin",
+        ),
+        Bounded(
+            key="spread", high=1e-12, label="largest distance of the three axes' common point [m]"
+        ),
     ],
 )
 def spherical_wrist(assumed: Assumed) -> Result:

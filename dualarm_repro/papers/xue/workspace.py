@@ -82,7 +82,10 @@ def master_cloud(assumed: Assumed) -> Result:
             "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
             "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
         },
-        measured={"ns_per_sample": 1e9 * seconds / WORKSPACE_POINTS, "ms_per_cloud": 1e3 * seconds},
+        measured={
+            "time per sample [ns]": 1e9 * seconds / WORKSPACE_POINTS,
+            "time for the cloud [ms]": 1e3 * seconds,
+        },
         table=table,
         caption=(
             f"{len(points)} random configurations reach x from {size.lower[0]:.2f} to "
@@ -100,7 +103,9 @@ def master_cloud(assumed: Assumed) -> Result:
     )
 
 
-@checks("xue.claim_mc_points", rules=[Adopts(key="points", to="points", label="random points used")])
+@checks(
+    "xue.claim_mc_points", rules=[Adopts(key="points", to="points", label="random points used")]
+)
 def monte_carlo_points(assumed: Assumed) -> Result:
     """The cloud of Fig. 5 has the printed number of points."""
     points = len(cloud(arm_in_use(), WORKSPACE_POINTS))
@@ -154,8 +159,10 @@ def both_clouds(assumed: Assumed) -> Result:
             "share_high": max(share.high for share in shares),
         },
         table=pd.DataFrame(
-            [{"cloud": name, "share": s.value, "low": s.low, "high": s.high}
-             for name, s in zip(("master", "slave"), shares, strict=True)]
+            [
+                {"cloud": name, "share": s.value, "low": s.low, "high": s.high}
+                for name, s in zip(("master", "slave"), shares, strict=True)
+            ]
         ),
         caption=(
             f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud lies "

@@ -12,11 +12,12 @@ from matplotlib.patches import Ellipse
 from ...arms import Arm, dh
 from ...errors import UnsupportedArmError
 from ..card import figure_html
+from ..equations import Equations
 from ..page import Page
 from ..style import BLACK, ORANGE, house_style
 
 _TOOL_DOWN = np.diag([1.0, -1.0, -1.0])
-_ELLIPSE = 0.12  # drawn length of an axis per unit of J's singular value
+_ELLIPSE = 0.05  # drawn half axis per unit of velocity
 
 
 def singular_factors(arm: Arm) -> dict[str, sp.Expr]:
@@ -48,6 +49,12 @@ def singular_factors(arm: Arm) -> dict[str, sp.Expr]:
     if elbow.free_symbols - {q[2]} or wrist.free_symbols - {q[4]}:
         raise UnsupportedArmError(f"arm {arm.name}: no spherical wrist on an arm without offset")
     return {"shoulder": sp.expand(radius), "elbow": elbow, "wrist": wrist}
+
+
+def factors_equations(arm: Arm) -> Equations:
+    """The three factors as displayed equations."""
+    factors = singular_factors(arm)
+    return Equations({rf"\text{{{name}}}": factor for name, factor in factors.items()})
 
 
 def factors_residual(arm: Arm, q: np.ndarray) -> float:
@@ -110,7 +117,7 @@ def _draw_ellipses(
     ax: Any, arm: Arm, x: np.ndarray, z: np.ndarray, q: np.ndarray, columns: int
 ) -> None:
     """The ellipse {J dq : |dq| = 1} of the velocity in the plane, at some points of the grid."""
-    step = columns // 8
+    step = columns // 7
     index = np.arange(len(x))
     chosen = (index % columns % step == step // 2) & (index // columns % step == step // 2)
     for k in index[chosen & np.isfinite(q).all(axis=1)]:

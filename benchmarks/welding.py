@@ -1,0 +1,75 @@
+"""Placement of a weld: fitness of one position, and a whole run of the genetic algorithm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pinocchio as pin
+from timing import OURS, Row, timed
+
+from dualarm_repro import load_arm
+from dualarm_repro.welding import (
+    Cell,
+    Objective,
+    Placement,
+    Settings,
+    Tools,
+    Torch,
+    Workpiece,
+    assemble,
+    evolve,
+)
+
+ARM, SEAM_POINTS, POSITIONS = "er16", 72, 50
+BASES = ((1.0, -1.0, 0.05), (-1.0, -1.0, 0.05), (0.0, 1.0, 0.0))
+BOX = np.array([[-0.6, 0.6], [-0.9, 0.9], [0.1, 1.5]])
+GOOD = np.array([0.0, 0.1, 0.65])
+FITNESS, RUN = "fitness of one position of a weld", "genetic algorithm, 4 750 evaluations"
+
+
+def measure() -> Iterator[Row]:
+    """Rows of this suite."""
+    placement = Placement(_cell(), Objective())
+    near = GOOD + np.random.default_rng(0).uniform(-0.03, 0.03, (POSITIONS, 3))
+    if not (placement(near) > 0).all():
+        raise RuntimeError("the positions of the benchmark should be feasible")
+    jobs = placement.jobs(near[:1])
+    yield timed(FITNESS, OURS, lambda: placement(near), POSITIONS)
+    yield timed(
+        FITNESS, f"{OURS}, one at a time", lambda: [placement([c]) for c in near], POSITIONS
+    )
+    peer = "pinocchio per point: Newton, Jacobian, determinant; no limits, no collision"
+    yield timed(FITNESS, peer, lambda: _by_pinocchio(placement.cell, near[0], jobs.q[0]), 1)
+    yield timed(RUN, OURS, lambda: evolve(placement, BOX, Settings(), np.random.default_rng(1)), 1)
+
+
+def _cell() -> Cell:
+    bases = np.tile(np.eye(4), (3, 1, 1))
+    bases[:, :3, 3] = BASES
+    workpiece = Workpiece(0.10, 0.06, 0.6, 0.15, SEAM_POINTS)
+    tools = Tools("axial", 0.15, 0.06, Torch(0.35, 0.0, 0.02, 0.10), "along_bisector")
+    arms = [load_arm(ARM)] * 3
+    return assemble(arms, bases, workpiece, "bisector", tools, floor=0.0, threshold=1e-3)
+
+
+def _by_pinocchio(cell: Cell, centre: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Manipulabilities (3, N) by Newton's method from the previous seam point."""
+    w = np.empty((3, cell.count))
+    for k, arm in enumerate(cell.arms):
+        model, data, flange = arm.model, arm.model.createData(), arm.flange_id
+        to_base, q = pin.SE3(cell.bases[k]).inverse(), start[k, 0].copy()
+        for n in range(cell.count):
+            target = pin.SE3(cell.flanges[k, n])
+            target.translation = target.translation + centre
+            target = to_base * target
+            for _ in range(20):
+                pin.forwardKinematics(model, data, q)
+                pose = pin.updateFramePlacement(model, data, flange)
+                error = pin.log6(pose.actInv(target)).vector
+                J = pin.computeFrameJacobian(model, data, q, flange)
+                if np.linalg.norm(error) < 1e-9:
+                    break
+                q = q + np.linalg.solve(J, error)
+            w[k, n] = abs(np.linalg.det(J))
+    return w

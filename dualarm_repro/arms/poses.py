@@ -1,0 +1,55 @@
+"""Checking of poses that come from outside."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+
+ORTHONORMAL = 1e-6  # largest error of R^T R - I that counts as rounding
+
+
+def check_poses(source: str, T: ArrayLike, ndim: int) -> np.ndarray:
+    """``T`` as a float64 array (4, 4) or (N, 4, 4) of rigid motions.
+
+    Raises
+    ------
+    InputError
+        Wrong shape, NaN or infinity, no right-handed rotation, last row not 0, 0, 0, 1.
+    """
+    shape = "(4, 4)" if ndim == 2 else "(N, 4, 4)"
+    expected = f"{shape} finite numbers, rotation and translation [m]"
+    try:
+        poses = np.ascontiguousarray(T, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(source, "T", T, expected) from None
+    if poses.ndim != ndim or poses.shape[-2:] != (4, 4):
+        raise InputError(source, "shape of T", poses.shape, expected)
+    stack = poses.reshape(-1, 4, 4)
+    wrong = _first_wrong(stack)
+    if wrong >= 0:
+        expected = "a finite right-handed rotation and translation with the last row 0, 0, 0, 1"
+        raise InputError(source, "T", stack[wrong].tolist(), expected)
+    return poses
+
+
+@njit(cache=True, error_model="numpy")
+def _first_wrong(poses):
+    """Index of the first matrix that is no pose, -1 if there is none."""
+    for k in range(len(poses)):
+        T = poses[k]
+        for i in range(3):
+            a, b, c = T[i, 0], T[i, 1], T[i, 2]
+            m, n = (i + 1) % 3, (i + 2) % 3
+            # Row i is of unit length and the cross product of the other two.
+            x = T[m, 1] * T[n, 2] - T[m, 2] * T[n, 1]
+            y = T[m, 2] * T[n, 0] - T[m, 0] * T[n, 2]
+            z = T[m, 0] * T[n, 1] - T[m, 1] * T[n, 0]
+            error = max(abs(a - x), abs(b - y), abs(c - z), abs(a * a + b * b + c * c - 1.0))
+            if not (error < ORTHONORMAL and np.isfinite(T[i, 3])):
+                return k
+        if T[3, 0] != 0.0 or T[3, 1] != 0.0 or T[3, 2] != 0.0 or T[3, 3] != 1.0:
+            return k
+    return -1

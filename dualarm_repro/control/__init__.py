@@ -1,0 +1,1 @@
+"""Velocity-level control of arms that share a workspace: problem, exact solvers, closed loop."""

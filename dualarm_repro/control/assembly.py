@@ -1,0 +1,109 @@
+"""The velocity problem of a system at one configuration, written into arrays that are reused.
+
+J x = dr/dt + K (r - f(q)),  J_N x <= beta,  merged joint bounds,  target -lambda (q - q_0).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from .avoidance import fill_rows, select_pairs
+from .damper import joint_bounds
+from .kinematics import core_distances, joint_frames, tip_jacobian
+
+
+class Buffers(NamedTuple):
+    """Reused arrays: kinematics, distances and the parts of the problem.
+
+    ``distance`` is what the controller goes by, ``surface`` the distance of the link surfaces;
+    ``chosen`` lists the pairs that give rows. Only the first rows of ``G`` and ``h`` are in use.
+    """
+
+    frames: np.ndarray
+    tips: np.ndarray
+    distance: np.ndarray
+    surface: np.ndarray
+    witness: np.ndarray
+    chosen: np.ndarray
+    target: np.ndarray
+    A: np.ndarray
+    b: np.ndarray
+    G: np.ndarray
+    h: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+
+@njit(cache=True, error_model="numpy")
+def make_buffers(arrays, rows_per_pair):
+    """Buffers for a system; ``rows_per_pair`` is an entry of :data:`.settings.ROWS`."""
+    n, arms, pairs = arrays.start[-1], len(arrays.base), len(arrays.pairs)
+    rows = rows_per_pair * pairs
+    return Buffers(
+        np.empty((n + arms, 3, 4)),
+        np.empty((arms, 3)),
+        np.empty(pairs),
+        np.empty(pairs),
+        np.empty((pairs, 3, 3)),
+        np.empty(pairs, np.int64),
+        np.empty(n),
+        np.empty((3 * arms, n)),
+        np.empty(3 * arms),
+        np.empty((rows, n)),
+        np.empty(rows),
+        np.empty(n),
+        np.empty(n),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def sense(arrays, numbers, q, noise, buffers):
+    """Kinematics, distances and the pairs that give rows; returns how many.
+
+    Parameters
+    ----------
+    noise : (P,) or (0,)
+        Added to the distances that the controller goes by [m].
+    """
+    B = buffers
+    joint_frames(arrays, q, B.frames, B.tips)
+    tip_jacobian(arrays, B.frames, B.tips, B.A)
+    core_distances(arrays, B.frames, B.distance, B.witness)
+    for k in range(len(B.distance)):
+        i, j = arrays.pairs[k]
+        thickness = arrays.radius[i] + arrays.radius[j]
+        B.surface[k] = B.distance[k] - thickness
+        B.distance[k] -= numbers.thickness * thickness
+        if len(noise):
+            B.distance[k] += noise[k]
+    if not numbers.avoid or not len(B.distance):
+        return 0
+    return select_pairs(arrays, numbers.selection, numbers.outer, B.distance, B.chosen)
+
+
+@njit(cache=True, error_model="numpy")
+def state(arrays, numbers, q, home, position, velocity, count, buffers):
+    """Write the problem after :func:`sense`; returns the number of rows of G.
+
+    Parameters
+    ----------
+    home : (n,)
+        Configuration that the repetitive term pulls to [rad].
+    position, velocity : (A, 3)
+        Where the tips shall be and how fast they shall move [m], [m/s].
+    count : int
+        How many of ``buffers.chosen`` give rows.
+    """
+    B = buffers
+    for i in range(len(q)):
+        B.target[i] = -numbers.repetition * (q[i] - home[i])
+    for arm in range(len(B.tips)):
+        for r in range(3):
+            B.b[3 * arm + r] = velocity[arm, r] + numbers.feedback * (
+                position[arm, r] - B.tips[arm, r]
+            )
+    joint_bounds(arrays, numbers, q, B.lower, B.upper)
+    return fill_rows(arrays, numbers, B.frames, B.distance, B.witness, B.chosen, count, B.G, B.h)

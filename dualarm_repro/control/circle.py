@@ -1,0 +1,118 @@
+"""Circles as tip paths: r(t) = c + R (cos s(t) u + sin s(t) v), run in one of two time laws."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, UnknownNameError
+
+TIME_LAWS = ("rest_to_rest", "constant_speed")
+
+
+class CircleNumbers(NamedTuple):
+    """``centre`` (A, 3), ``u``, ``v`` (A, 3) scaled by the radius, ``duration``, ``law``."""
+
+    centre: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    duration: float
+    law: int
+
+
+@dataclass(frozen=True, eq=False)
+class Circles:
+    """One circle per arm, all run once in ``duration``.
+
+    Attributes
+    ----------
+    centre : (A, 3) [m]
+    u, v : (A, 3)
+        Orthogonal, of the length of the radius [m]; the path starts at centre + u.
+    duration : float [s]
+    law : str
+        ``rest_to_rest``: s = 2 pi sin^2(pi t / (2 T)); ``constant_speed``: s = 2 pi t / T.
+
+    Raises
+    ------
+    InputError
+        NaN or infinity, wrong shapes, a duration that is not positive.
+    UnknownNameError
+        No such time law.
+    """
+
+    centre: ArrayLike
+    u: ArrayLike
+    v: ArrayLike
+    duration: float = 10.0
+    law: str = "rest_to_rest"
+
+    def __post_init__(self) -> None:
+        for name in ("centre", "u", "v"):
+            array = np.array(getattr(self, name), dtype=float)
+            if array.ndim != 2 or array.shape[1] != 3 or array.shape != np.shape(self.centre):
+                raise InputError(
+                    "Circles", f"shape of {name}", array.shape, "(A, 3), one row per arm"
+                )
+            if not np.isfinite(array).all():
+                wrong = float(array[~np.isfinite(array)][0])
+                raise InputError("Circles", name, wrong, "finite numbers [m]")
+            object.__setattr__(self, name, array)
+        if not (np.isfinite(self.duration) and self.duration > 0):
+            raise InputError("Circles", "duration", self.duration, "a positive time [s]")
+        if self.law not in TIME_LAWS:
+            raise UnknownNameError("Circles", "law", self.law, f"one of {', '.join(TIME_LAWS)}")
+
+    @classmethod
+    def through(
+        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing
+    ) -> Circles:
+        """Circles that start at ``tips``, in planes normal to ``normals``.
+
+        ``angles`` turn the direction from the tip to the centre within each plane.
+        """
+        tips, normals = np.asarray(tips, dtype=float), np.asarray(normals, dtype=float)
+        angles = np.asarray(angles, dtype=float)[:, None]
+        normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        # Any direction in the plane: the one from the axis that the normal is farthest from.
+        axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
+        e = np.cross(normals, axis)
+        e /= np.linalg.norm(e, axis=1, keepdims=True)
+        f = np.cross(normals, e)
+        u = radius * (np.cos(angles) * e + np.sin(angles) * f)
+        return cls(tips - u, u, np.cross(normals, u), **timing)
+
+    def numbers(self) -> CircleNumbers:
+        """For the kernels."""
+        return CircleNumbers(
+            self.centre, self.u, self.v, float(self.duration), TIME_LAWS.index(self.law)
+        )
+
+    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """Positions and velocities (A, 3) at a time; it repeats every ``duration``."""
+        position, velocity = np.empty_like(self.centre), np.empty_like(self.centre)
+        follow(self.numbers(), float(t), position, velocity)
+        return position, velocity
+
+
+@njit(cache=True, error_model="numpy")
+def follow(circle, t, position, velocity):
+    """r(t) and dr/dt (A, 3); the path repeats every ``duration``."""
+    T = circle.duration
+    turns = np.floor(t / T)
+    if circle.law == 0:
+        phase = 0.5 * np.pi * (t - turns * T) / T
+        s = 2.0 * np.pi * np.sin(phase) ** 2
+        ds = 2.0 * np.pi * np.pi / T * np.sin(phase) * np.cos(phase)
+    else:
+        s, ds = 2.0 * np.pi * t / T, 2.0 * np.pi / T
+    c, d = np.cos(s), np.sin(s)
+    for arm in range(len(circle.centre)):
+        for r in range(3):
+            u, v = circle.u[arm, r], circle.v[arm, r]
+            position[arm, r] = circle.centre[arm, r] + c * u + d * v
+            velocity[arm, r] = ds * (c * v - d * u)

@@ -1,0 +1,134 @@
+"""Solvers side by side in one language: compiled loops over the same recorded problems."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from .least_distance import least_distance
+from .neural.network import network_rate
+from .neural.network_settings import NetworkSettings
+from .neural.primal_dual import iterate
+from .problem import Problem
+from .recorded import stacked
+
+
+@njit(cache=True, error_model="numpy")
+def exact_all(data, x):
+    """Minimisers of all problems, each from nothing."""
+    target, A, b, G, h, lower, upper, rows = data
+    for f in range(len(rows)):
+        k = rows[f]
+        x[f] = least_distance(target[f], A[f], b[f], G[f, :k], h[f, :k], lower[f], upper[f])[1]
+
+
+@njit(cache=True, error_model="numpy")
+def newton_all(data, network, steps, x):
+    """``steps`` network steps of unit gain (Newton steps) a problem, warm from the one before."""
+    target, A, b, G, h, lower, upper, rows = data
+    n, m = len(target[0]), len(b[0])
+    y, rate, still = np.zeros(n + m), np.empty(n + m), np.zeros(n + m)
+    for f in range(len(rows)):
+        k = rows[f]
+        for _ in range(steps):
+            network_rate(
+                *(
+                    network,
+                    1.0,
+                    still,
+                    target[f],
+                    A[f],
+                    b[f],
+                    G[f, :k],
+                    h[f, :k],
+                    lower[f],
+                    upper[f],
+                    y,
+                    rate,
+                )
+            )
+            y += rate
+        x[f] = y[:n]
+
+
+@njit(cache=True, error_model="numpy")
+def primal_dual_all(data, iterations, x):
+    """``iterations`` steps of the primal-dual network a problem, warm; z only while rows stay."""
+    target, A, b, G, h, lower, upper, rows = data
+    n, m = len(target[0]), len(b[0])
+    u = np.zeros(n + m)
+    for f in range(len(rows)):
+        k = rows[f]
+        longer = np.zeros(n + m + k)
+        kept = len(u) if len(u) == len(longer) else n + m
+        longer[:kept] = u[:kept]
+        u = longer
+        iterate(target[f], A[f], b[f], G[f, :k], h[f, :k], lower[f], upper[f], u, iterations, 0.0)
+        x[f] = u[:n]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One contestant: accuracy over the problems and time a problem.
+
+    ``error`` is the largest |x - x*| [rad/s], ``violation`` the largest violation of an inequality
+    [m/s], ``microseconds`` median, ``low`` and ``high`` the quartiles of repeated runs.
+    """
+
+    solver: str
+    effort: int
+    error: float
+    violation: float
+    microseconds: float
+    low: float
+    high: float
+
+
+def contest(
+    problems: list[Problem],
+    network: NetworkSettings,
+    newton_steps: tuple[int, ...],
+    iterations: tuple[int, ...],
+    repeats: int = 9,
+) -> list[Entry]:
+    """Time and accuracy of the exact method, the network and the primal-dual network.
+
+    The problems are taken in order, so that each method starts from the state before; the exact one
+    starts from nothing. Runs of the contestants alternate, so that load of the machine hits all.
+    """
+    data = stacked(problems)
+    numbers = network.numbers()
+    runs: dict[tuple[str, int], Callable[[np.ndarray], None]] = {
+        ("active_set", 1): lambda x: exact_all(data, x)
+    }
+    for steps in newton_steps:
+        runs["network", steps] = lambda x, steps=steps: newton_all(data, numbers, steps, x)
+    for count in iterations:
+        runs["primal_dual", count] = lambda x, count=count: primal_dual_all(data, count, x)
+    found = {key: np.empty((len(problems), problems[0].size)) for key in runs}
+    for key, run in runs.items():
+        run(found[key])
+    times: dict[tuple[str, int], list[float]] = {key: [] for key in runs}
+    for _ in range(repeats):
+        for key, run in runs.items():
+            start = time.perf_counter()
+            run(found[key])
+            times[key].append(1e6 * (time.perf_counter() - start) / len(problems))
+    exact = found["active_set", 1]
+    return [
+        Entry(
+            *key,
+            float(np.abs(found[key] - exact).max()),
+            _violation(problems, found[key]),
+            *(float(np.percentile(times[key], share)) for share in (50, 25, 75)),
+        )
+        for key in runs
+    ]
+
+
+def _violation(problems: list[Problem], x: np.ndarray) -> float:
+    return float(max((p.G @ v - p.h).max(initial=0.0) for p, v in zip(problems, x, strict=True)))

@@ -1,0 +1,95 @@
+"""The varying-parameter network: a flow whose rest points are the optimality conditions.
+
+Asking the error xi = F(y, t) to decay as dxi/dt = -gamma e^t Psi(xi), and moving what depends on
+the unknown rate to the left, gives
+
+    M(y) dy/dt = -dF/dt|_y - gamma e^t Psi(F),
+
+with M of :mod:`.optimality`. The Hessian of the penalty in M is what differentiating e(y, t) in
+E y = e demands. dF/dt at fixed y, as the robot moves with x and the path goes on, is taken as a
+central difference along the motion: it holds the rates of A, b, G and h at once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from ..assembly import sense, state
+from ..circle import follow
+from .activation import activation
+from .optimality import optimality, penalised_hessian
+from .saddle import solve_saddle
+
+#: Half step of the central difference [s].
+HALF_STEP = 1e-5
+ALL, WITHOUT_BARRIER_RATE, NONE = range(3)
+
+
+@njit(cache=True, error_model="numpy")
+def gain_at(network, t):
+    """min(gamma e^t, cap) or min(gamma, cap) [1/s]."""
+    return min(network.gamma * (np.exp(t) if network.growing else 1.0), network.cap)
+
+
+@njit(cache=True, error_model="numpy")
+def network_rate(network, gain, feed_forward, target, A, b, G, h, lower, upper, y, rate):
+    """dy/dt (n + m,) of one problem; ``feed_forward`` (n + m,) is dF/dt at fixed y."""
+    optimality(network, target, A, b, G, h, lower, upper, y, rate)
+    for i in range(len(rate)):
+        rate[i] = -feed_forward[i] - gain * activation(network.activation, rate[i])
+    H = np.empty((len(target), len(target)))
+    penalised_hessian(network, target, G, h, lower, upper, y, H)
+    solve_saddle(H, A, rate)
+
+
+@njit(cache=True, error_model="numpy")
+def problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, B, drift):
+    """dF/dt at fixed y (n + m,), with the pairs that give rows held; overwrites the buffers.
+
+    ``B`` has to have been filled at (q, t), so that it knows the pairs.
+    """
+    n = len(q)
+    position, velocity = np.empty((len(B.tips), 3)), np.empty((len(B.tips), 3))
+    F = np.empty(len(y))
+    chosen, h = B.chosen[:count].copy(), B.h.copy()
+    for sign in (-1.0, 1.0):
+        step = sign * HALF_STEP
+        moved = q + step * y[:n]
+        sense(arrays, numbers, moved, noise, B)
+        B.chosen[:count] = chosen
+        follow(circle, t + step, position, velocity)
+        k = state(arrays, numbers, moved, home, position, velocity, count, B)
+        if network.feed_forward == WITHOUT_BARRIER_RATE:
+            B.h[:k] = h[:k]
+        optimality(network, B.target, B.A, B.b, B.G[:k], B.h[:k], B.lower, B.upper, y, F)
+        drift += sign * F / (2.0 * HALF_STEP)
+
+
+@njit(cache=True, error_model="numpy")
+def state_rate(arrays, numbers, network, circle, q, home, t, y, noise, disturbance, buffers, rate):
+    """dy/dt (n + m,) of the network that drives the arms at (q, t); returns the number of rows.
+
+    Parameters
+    ----------
+    noise : (P,) or (0,)
+        Error of the distance readings [m].
+    disturbance : (n + m,)
+        Added to the right-hand side.
+    buffers
+        Left as filled at (q, t).
+    """
+    B, drift = buffers, np.zeros(len(y))
+    position, velocity = np.empty((len(B.tips), 3)), np.empty((len(B.tips), 3))
+    follow(circle, t, position, velocity)
+    count = sense(arrays, numbers, q, noise, B)
+    if network.feed_forward != NONE:
+        state(arrays, numbers, q, home, position, velocity, count, B)
+        problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, B, drift)
+        sense(arrays, numbers, q, noise, B)
+    rows = state(arrays, numbers, q, home, position, velocity, count, B)
+    drift -= disturbance
+    G, h = B.G[:rows], B.h[:rows]
+    gain = gain_at(network, t)
+    network_rate(network, gain, drift, B.target, B.A, B.b, G, h, B.lower, B.upper, y, rate)
+    return rows

@@ -1,0 +1,158 @@
+"""The earlier primal-dual network on linear variational inequalities (LVI-PDNN).
+
+u = [x; y; z] with lower <= x <= upper, z >= 0 and
+
+    M = [I, -A^T, G^T;  A, 0, 0;  -G, 0, 0],   p = [-target; -b; h],
+    e(u) = u - Proj(u - (M u + p)),            du/dt = -gamma (I + M^T) e(u).
+
+Rest points are the minimisers. The iteration u -= |e|^2 / |(I + M^T) e|^2 (I + M^T) e is the one of
+B. He, Appl. Math. Optim. 35, 1997, known there and in later work as method E47.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+
+from ...errors import InputError
+from ..assembly import make_buffers, sense, state
+from ..circle import Circles, follow
+from ..closed_loop import DIVERGED, DONE, observe
+from ..motion import Motion
+from ..settings import Settings
+from ..simulate import checked_run, truncated
+from ..system import ArmSystem
+from .fixed_step import FASTEST
+
+
+@njit(cache=True, error_model="numpy")
+def projection_error(target, A, b, G, h, lower, upper, u, e):
+    """e(u) (n + m + k,)."""
+    n, m, k = len(target), len(b), len(h)
+    for i in range(n):
+        total = u[i] - target[i]
+        for j in range(m):
+            total -= A[j, i] * u[n + j]
+        for j in range(k):
+            total += G[j, i] * u[n + m + j]
+        e[i] = u[i] - min(max(u[i] - total, lower[i]), upper[i])
+    for j in range(m):
+        total = -b[j]
+        for i in range(n):
+            total += A[j, i] * u[i]
+        e[n + j] = total
+    for j in range(k):
+        total = h[j]
+        for i in range(n):
+            total -= G[j, i] * u[i]
+        e[n + m + j] = u[n + m + j] - max(u[n + m + j] - total, 0.0)
+
+
+@njit(cache=True, error_model="numpy")
+def direction(A, G, e, d):
+    """d = (I + M^T) e."""
+    n, m, k = A.shape[1], len(A), len(G)
+    d[:] = e
+    for i in range(n):
+        d[i] += e[i]
+        for j in range(m):
+            d[i] += A[j, i] * e[n + j]
+        for j in range(k):
+            d[i] -= G[j, i] * e[n + m + j]
+    for j in range(m):
+        for i in range(n):
+            d[n + j] -= A[j, i] * e[i]
+    for j in range(k):
+        for i in range(n):
+            d[n + m + j] += G[j, i] * e[i]
+
+
+@njit(cache=True, error_model="numpy")
+def iterate(target, A, b, G, h, lower, upper, u, iterations, tolerance):
+    """Improve ``u`` in place; returns the iterations made until |e|_inf <= tolerance, or all."""
+    e, d = np.empty(len(u)), np.empty(len(u))
+    for made in range(iterations):
+        projection_error(target, A, b, G, h, lower, upper, u, e)
+        if np.abs(e).max() <= tolerance:
+            return made
+        direction(A, G, e, d)
+        u -= ((e * e).sum() / (d * d).sum()) * d
+    return iterations
+
+
+@njit(cache=True, error_model="numpy")
+def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, disturbance):
+    """Closed loop with a fixed number of iterations per tick, multipliers kept from tick to tick.
+
+    ``disturbance`` (steps, n + m) is added to dx and dy of every tick, scaled by the step. One row
+    per pair. Returns what :func:`..closed_loop.run_exact` does, without the slack.
+    """
+    n, arms = len(q0), len(arrays.base)
+    m = 3 * arms
+    B = make_buffers(arrays, 1)
+    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
+    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
+    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
+    rows = np.zeros(steps, np.int64)
+    q[0] = q0
+    kept, pair_kept = np.zeros(n + m), np.zeros(len(arrays.pairs))
+    for step in range(steps + 1):
+        reading = noise[step] if step < len(noise) else np.empty(0)
+        count = sense(arrays, numbers, q[step], reading, B)
+        follow(circle, step * dt, position, velocity)
+        distance[step] = observe(B, position, error[step])
+        if step == steps:
+            break
+        k = state(arrays, numbers, q[step], q0, position, velocity, count, B)
+        u = np.empty(n + m + k)
+        u[: n + m] = kept
+        for j in range(k):
+            u[n + m + j] = pair_kept[B.chosen[j]]
+        iterate(B.target, B.A, B.b, B.G[:k], B.h[:k], B.lower, B.upper, u, iterations, 0.0)
+        if step < len(disturbance):
+            u[: n + m] += dt * disturbance[step]
+        kept[:] = u[: n + m]
+        pair_kept[:] = 0.0
+        for j in range(k):
+            pair_kept[B.chosen[j]] = u[n + m + j]
+        rows[step] = k
+        x[step] = u[:n]
+        if not np.abs(u[:n]).max() < FASTEST:
+            return DIVERGED, step, q, x, error, distance, rows
+        q[step + 1] = q[step] + dt * u[:n]
+    return DONE, steps, q, x, error, distance, rows
+
+
+_NONE = np.empty((0, 0))
+
+
+def simulate_primal_dual(
+    system: ArmSystem,
+    circles: Circles,
+    q0: ArrayLike,
+    settings: Settings,
+    *,
+    iterations: int = 100,
+    dt: float = 1e-3,
+    noise: np.ndarray = _NONE,
+    disturbance: np.ndarray = _NONE,
+) -> Motion:
+    """Follow the circles with ``iterations`` steps of the primal-dual network per tick.
+
+    Raises
+    ------
+    InputError
+        As :func:`..simulate.simulate`; a form of the avoidance with several rows per pair, or
+        iterations that are not positive.
+    """
+    q0, numbers, steps = checked_run(system, circles, q0, settings, dt, 1)
+    if settings.form != "pair_normal":
+        raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
+    if iterations < 1:
+        raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
+    run = run_primal_dual(
+        *(system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt, noise, disturbance)
+    )
+    status, taken, *samples = run
+    return truncated(status, taken, dt, *samples, np.zeros(steps))

@@ -1,0 +1,62 @@
+"""A frozen scenario in ``data/scenes``: two arms of one model and a circle per tip."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError
+
+from ..datafiles import from_validation, read_yaml
+
+Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Triple = tuple[Number, Number, Number]
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class ArmTask(_Model):
+    """Start of one arm and the plane and phase of its circle."""
+
+    q: list[Number] = Field(min_length=1, description="start [rad]")
+    normal: Triple = Field(description="of the plane of the circle")
+    angle: Number = Field(description="of the start on the circle, within its plane [rad]")
+
+
+class Found(_Model):
+    """How the scenario was found."""
+
+    seed: list[int]
+    criteria: Text
+
+
+class Scenario(_Model):
+    """Two arms of one model, bases apart along y and looking along x, each tip on a circle."""
+
+    kind: Literal["velocity-control"]
+    title: Text
+    robot: Text = Field(description="name in data/robots")
+    base_distance: float = Field(gt=0, allow_inf_nan=False, description="[m]")
+    radius: float = Field(gt=0, allow_inf_nan=False, description="of the circles [m]")
+    duration: float = Field(gt=0, allow_inf_nan=False, description="of one turn [s]")
+    left: ArmTask
+    right: ArmTask
+    found: Found
+
+
+def load_scenario(path: Path) -> Scenario:
+    """Read and check a scenario file.
+
+    Raises
+    ------
+    DataFileError
+        With the first offending field, its value and what was expected.
+    """
+    content = read_yaml(path)
+    try:
+        return Scenario.model_validate(content)
+    except ValidationError as error:
+        raise from_validation(path, error) from None

@@ -1,0 +1,94 @@
+"""Simulate a scenario with the exact controller."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+from .circle import Circles
+from .closed_loop import DONE, REASONS, run_exact
+from .motion import Motion
+from .settings import ROWS, Numbers, Settings
+from .system import ArmSystem
+
+_NO_NOISE = np.empty((0, 0))
+#: Weight of the slack on the task against |x|^2 / 2.
+SLACK_WEIGHT = 1e4
+
+
+def simulate(
+    system: ArmSystem,
+    circles: Circles,
+    q0: ArrayLike,
+    settings: Settings,
+    *,
+    dt: float = 1e-3,
+    cycles: int = 1,
+    slack: bool = False,
+    noise: np.ndarray = _NO_NOISE,
+) -> Motion:
+    """Follow the circles from ``q0`` with the exact minimiser of every step.
+
+    Parameters
+    ----------
+    dt : float [s]
+    cycles : int
+        How often the circles are run.
+    slack : bool
+        Let the task yield where it excludes the inequalities; else the run stops there, and
+        ``Motion.stopped`` says why.
+    noise : (N, P)
+        Error of the distance readings [m].
+
+    Raises
+    ------
+    ConfigurationError, InputError
+        A bad configuration, step, number of cycles or number of circles.
+    """
+    q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
+    weight = SLACK_WEIGHT if slack else 0.0
+    rows = ROWS[numbers.form]
+    status, taken, q, x, error, distance, counts, given = run_exact(
+        system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise, rows
+    )
+    return truncated(status, taken, dt, q, x, error, distance, counts, given)
+
+
+def pseudo_inverse(settings: Settings) -> Settings:
+    """The settings without inequalities: the minimiser is x = J^+ (dr/dt + K (r - f))."""
+    return Settings(
+        feedback=settings.feedback, repetition=settings.repetition, avoid=False, limits=False
+    )
+
+
+def checked_run(
+    system: ArmSystem, circles: Circles, q0: ArrayLike, settings: Settings, dt: float, cycles: int
+) -> tuple[np.ndarray, Numbers, int]:
+    """Start, settings for the kernels and number of steps of a run."""
+    if len(circles.centre) != len(system.arms):
+        raise InputError(
+            "simulate", "circles", len(circles.centre), f"{len(system.arms)}, one per arm"
+        )
+    if not (np.isfinite(dt) and 0 < dt <= circles.duration):
+        raise InputError("simulate", "dt", dt, f"a step in (0, {circles.duration:g}] s")
+    if not (isinstance(cycles, int) and cycles > 0):
+        raise InputError("simulate", "cycles", cycles, "a positive whole number")
+    steps = round(cycles * circles.duration / dt)
+    return system.configuration(q0), settings.numbers(), steps
+
+
+def truncated(status: int, taken: int, dt: float, q, x, error, distance, rows, slack) -> Motion:
+    """Motion of the steps that were taken."""
+    reason = None if status == DONE else f"{REASONS[status]} at t = {taken * dt:.3f} s"
+    k = taken + 1
+    return Motion(
+        dt * np.arange(k),
+        q[:k],
+        x[:taken],
+        error[:k],
+        distance[:k],
+        rows[:taken],
+        slack[:taken],
+        reason,
+    )

@@ -1,0 +1,57 @@
+"""The problem as a mathematician writes it: a disciplined parametrised program in cvxpy."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from .problem import NoSolution, Problem, Solution
+
+_NONE = 1e6  # [rad/s] stands for an absent bound: a parameter has to be finite
+
+
+@lru_cache(maxsize=8)
+def statement(n: int, m: int, k: int) -> tuple[Any, dict[str, Any], Any, list[Any]]:
+    """min 1/2 |x - target|^2  s.t.  A x = b, G x <= h, lower <= x <= upper, with named parameters.
+
+    Returns
+    -------
+    problem, parameters, x, constraints
+        The cvxpy problem for n unknowns, m equalities and k inequalities, compiled once.
+    """
+    import cvxpy as cp
+
+    x = cp.Variable(n)
+    shapes = {"target": n, "A": (m, n), "b": m, "G": (k, n), "h": k, "lower": n, "upper": n}
+    p = {
+        name: cp.Parameter(shape) for name, shape in shapes.items() if 0 not in np.atleast_1d(shape)
+    }
+    constraints = [p["lower"] <= x, x <= p["upper"]]
+    if m:
+        constraints.append(p["A"] @ x == p["b"])
+    if k:
+        constraints.append(p["G"] @ x <= p["h"])
+    objective = cp.Minimize(0.5 * cp.sum_squares(x - p["target"]))
+    return cp.Problem(objective, constraints), p, x, constraints
+
+
+def solve_statement(problem: Problem) -> Solution:
+    """Solve through cvxpy with Clarabel, the readable reference."""
+    import cvxpy as cp
+
+    m, k = len(problem.b), len(problem.h)
+    stated, parameters, x, (low, high, *rest) = statement(problem.size, m, k)
+    for name, parameter in parameters.items():
+        parameter.value = getattr(problem, name).clip(-_NONE, _NONE)
+    tolerance = {f"tol_{name}": 1e-11 for name in ("gap_abs", "gap_rel", "feas")}
+    try:
+        stated.solve(solver=cp.CLARABEL, **tolerance)
+    except cp.SolverError as error:
+        raise NoSolution("cvxpy", problem, str(error)) from None
+    if stated.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE):
+        raise NoSolution("cvxpy", problem, stated.status)
+    y = rest.pop(0).dual_value if m else np.zeros(0)
+    z = rest.pop(0).dual_value if k else np.zeros(0)
+    return Solution(problem, x.value, y, z, high.dual_value - low.dual_value)

@@ -1,0 +1,31 @@
+"""Document `pan`: where to start a weld with three robots, by manipulability and evolution."""
+
+from . import (
+    bases,
+    consistency,
+    coordination,
+    drawings,
+    errata,
+    evolution,
+    geometry,
+    measures,
+    poor,
+    result,
+    sensitivity,
+    studies,
+)
+
+__all__ = [
+    "bases",
+    "consistency",
+    "coordination",
+    "drawings",
+    "errata",
+    "evolution",
+    "geometry",
+    "measures",
+    "poor",
+    "result",
+    "sensitivity",
+    "studies",
+]

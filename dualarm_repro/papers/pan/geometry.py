@@ -1,0 +1,196 @@
+"""The seam of `pan`: equation (17) and Figs 5-8."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import sympy as sp
+
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...view.pipe_seam import pipes_figure, seam_figure
+from ...welding import WELDER
+from .coordination import at_display
+from .scenario import FlatSeam, SeamModel
+
+checks = partial(REGISTRY.checks, page="pan/cell")
+
+
+@checks(
+    "pan.eq17",
+    rules=[
+        Is(
+            key="on_pipes", value=True, label="the printed curve lies on both cylinders, in symbols"
+        ),
+        Bounded(
+            key="points", high=1e-12, label="seam points used and the printed formula differ by [m]"
+        ),
+    ],
+    samples=32,
+)
+def saddle_curve(assumed: Assumed) -> Result:
+    """The printed formula in symbols against both cylinders, and against the points used."""
+    model = SeamModel.of(assumed)
+    theta, ra, rb = sp.symbols("theta R_a R_b", positive=True)
+    names = {"theta": theta, "R_a": ra, "R_b": rb}
+    text = REGISTRY.item("pan.eq17").printed["formula"]
+    x, y, z = (sp.sympify(part.split("=")[1], locals=names) for part in text.split(", "))
+    on_pipes = sp.simplify(x**2 + y**2 - rb**2) == 0 and sp.simplify(y**2 + z**2 - ra**2) == 0
+    seam = model.seam
+    radii = {ra: model.radius_main, rb: model.radius_branch}
+    formula = sp.lambdify(theta, [part.subs(radii) for part in (x, y, z)], "numpy")
+    printed = np.column_stack(np.broadcast_arrays(*formula(seam.theta)))
+    difference = float(abs(printed - seam.points).max())
+    height = np.ptp(seam.points[:, 2])
+    return Result(
+        obtained={"on_pipes": bool(on_pipes), "points": difference, "height": float(height)},
+        caption=(
+            "The printed curve satisfies the equations of both cylinders identically: a main "
+            "pipe of radius R_a along x and a branch of radius R_b along z. With the radii "
+            f"assumed it rises and falls by {1000 * height:.1f} mm. The root keeps the upper of "
+            "two seams."
+        ),
+    )
+
+
+@checks(
+    "pan.claim_theta_range",
+    rules=[Adopts(key="theta", to="theta", label="range of theta that the seam covers [rad]")],
+)
+def theta_range(assumed: Assumed) -> Result:
+    """First value of theta and the end of the last step."""
+    count = round(assumed["seam_points"])
+    covered = [0.0, 2.0 * np.pi * count / count]
+    return Result(
+        obtained={"theta": covered},
+        caption=(
+            f"The seam is closed and covered once, by {count} equally spaced points. The interval "
+            "is printed open, which would leave out the point at theta = 0."
+        ),
+    )
+
+
+@checks(
+    "pan.fig05",
+    rules=[
+        Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
+        NeedsPrinted(key="radii", label="the radii and lengths of the pipes"),
+    ],
+)
+def workpiece(assumed: Assumed) -> Result:
+    """Main pipe and branch."""
+    model, length, branch = (
+        SeamModel.of(assumed),
+        assumed["workpiece_length"],
+        assumed["branch_length"],
+    )
+    seam = model.seam
+    return Result(
+        obtained={"residual": _residual(model)},
+        caption=(
+            f"Main pipe of radius {model.radius_main:g} m and length {length:g} m along x, branch "
+            f"of radius {model.radius_branch:g} m along z, and the seam where they meet. The "
+            "drawing carries no dimensions, so these are assumed."
+        ),
+        alt="A level pipe with a thinner pipe standing on its middle; the seam is a saddle curve.",
+        figure=lambda: pipes_figure(seam, model.radius_main, model.radius_branch, length, branch),
+    )
+
+
+@checks(
+    "pan.fig06",
+    rules=[
+        Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
+        NeedsPrinted(key="radii", label="the radii"),
+    ],
+)
+def curve(assumed: Assumed) -> Result:
+    """The saddle curve in space."""
+    model = SeamModel.of(assumed)
+    points = model.seam.points
+    return Result(
+        obtained={"residual": _residual(model), "extent": np.ptp(points, axis=0).tolist()},
+        table=_table(points),
+        caption=(
+            "The saddle curve of equation (17) in the workpiece frame, "
+            f"{_extent(points)} in x, y and z. Its size follows from radii that are not printed."
+        ),
+        alt="A closed space curve shaped like a saddle.",
+        figure=lambda: seam_figure({"seam in the workpiece frame": points}),
+    )
+
+
+@checks(
+    "pan.fig07",
+    rules=[
+        Bounded(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
+        NeedsPrinted(key="posture", label="the rule of the flat position"),
+    ],
+)
+def flat_points(assumed: Assumed) -> Result:
+    """The current seam point after the rotation that lays it flat, about the fixed origin."""
+    flat, centre = FlatSeam.of(assumed), assumed["rotation_centre"]
+    seam, R = flat.seam, flat.rotations
+    points = np.einsum("nij,nj->ni", R, seam.points)
+    tangent = np.einsum("nij,nj->ni", R, seam.tangent)
+    slope = float(abs(tangent[:, 2]).max())
+    return Result(
+        obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist(), "about": centre},
+        table=_table(points),
+        caption=(
+            "Each seam point at the moment it is welded, the workpiece turned about its origin "
+            f"so that the seam is level there: the points fill only {_extent(points)}, against "
+            f"{_extent(seam.points)} on the workpiece. In the flat position the welder therefore "
+            "hardly moves, and the carriers do the work. The rule of the posture is not printed."
+        ),
+        alt="The saddle curve and, smaller above it, the curve of the points as they are welded.",
+        figure=lambda: seam_figure({"on the workpiece": seam.points, "as welded, flat": points}),
+    )
+
+
+@checks(
+    "pan.fig08",
+    rules=[
+        Bounded(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
+        NeedsPrinted(key="position", label="the initial position used"),
+    ],
+)
+def points_in_base(assumed: Assumed) -> Result:
+    """The points of Fig. 7 in the frame of base 3."""
+    cell, jobs, centre = at_display(assumed)
+    to_base = np.linalg.inv(cell.bases[WELDER])
+    points = cell.seam_in_world(centre) @ to_base[:3, :3].T + to_base[:3, 3]
+    flange = cell.arms[WELDER].fk(jobs.q[0, WELDER])[:, :3, 3]
+    lever = cell.lever_arms[WELDER] @ to_base[:3, :3].T
+    return Result(
+        obtained={
+            "residual": float(abs(flange + lever - points).max()),
+            "mean": points.mean(axis=0).tolist(),
+        },
+        table=_table(points),
+        caption=(
+            "The points to be welded in the frame of base 3, for the workpiece at "
+            f"({', '.join(f'{v:g}' for v in centre)}) m: {_extent(points)} around "
+            f"({', '.join(f'{v:.3f}' for v in points.mean(axis=0))}) m. The position drawn in the "
+            "document is not given."
+        ),
+        alt="A small closed curve in the frame of the welder's base.",
+        figure=lambda: seam_figure({"in the frame of base 3": points}),
+    )
+
+
+def _residual(model: SeamModel) -> float:
+    x, y, z = model.seam.points.T
+    main = abs(np.hypot(y, z) - model.radius_main).max()
+    return float(max(main, abs(np.hypot(x, y) - model.radius_branch).max()))
+
+
+def _extent(points: np.ndarray) -> str:
+    return " x ".join(f"{1000 * side:.0f}" for side in np.ptp(points, axis=0)) + " mm"
+
+
+def _table(points: np.ndarray) -> pd.DataFrame:
+    return (
+        pd.DataFrame(points, columns=["x_m", "y_m", "z_m"]).rename_axis("seam_point").reset_index()
+    )

@@ -1,0 +1,153 @@
+"""Figure 2: one task with and without mutual avoidance."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ...control.motion import Motion
+from ...control.settings import Settings
+from ...control.simulate import pseudo_inverse
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
+from ...view.arm_drawings import skeleton
+from ...view.control_figures import comparison_figure
+from ...view.scene3d import Scene3D
+from ...view.style import MASTER, SLAVE
+from .scenario import Frozen, crossing, run, settings_of
+
+checks = partial(REGISTRY.checks, page="patent/avoidance")
+
+#: Assumptions on the avoidance rows.
+AVOIDANCE = (
+    "avoidance_form",
+    "pair_selection",
+    "damper_law",
+    "damper_gain",
+    "outer_range",
+    "inner_range",
+    "distance_measure",
+)
+#: Step and rate errors eat this much of the inner range [m].
+KEPT = 5e-4
+
+
+@checks(
+    "patent.fig02",
+    samples=32,
+    rules=[
+        Bounded(
+            key="naive_distance", high=-0.05, label="without avoidance the arms interpenetrate [m]"
+        ),
+        Bounded(
+            key="shortfall",
+            high=KEPT,
+            label="with it the distance falls short of d2 by at most [m]",
+        ),
+        Bounded(key="tip_error", high=5e-5, label="and the tips stay on their paths, to [m]"),
+        Is(key="completed", value=True, label="over the whole task"),
+    ],
+)
+def comparison(assumed: Assumed) -> Result:
+    """Figure 2: one task with the avoidance rows off and on."""
+    scenario = crossing(assumed, "base_distance", "duration", "time_law", "capsules")
+    settings = settings_of(assumed, *AVOIDANCE, "feedback_gain")
+    dt = assumed["time_step"]
+    naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
+    table = pd.DataFrame(
+        [(name, *_measures(m)) for name, m in (("without", naive), ("with", motion))],
+        columns=["avoidance", "distance [m]", "tip error [m]", "peak speed [rad/s]",
+                 "peak acceleration [rad/s^2]", "energy [rad^2/s]", "drift [rad]"],
+    )  # fmt: skip
+    return Result(
+        obtained={
+            "naive_distance": naive.smallest_distance,
+            "distance": motion.smallest_distance,
+            "shortfall": settings.inner - motion.smallest_distance,
+            "tip_error": motion.largest_error,
+            "completed": motion.completed,
+            "energy_ratio": motion.energy / naive.energy,
+        },
+        table=table,
+        caption=(
+            f"{scenario.title}. The same circles in {scenario.period:g} s: without the avoidance "
+            "rows the arms "
+            f"interpenetrate by {-1e3 * naive.smallest_distance:.0f} mm, with them they stay "
+            f"{1e3 * motion.smallest_distance:.1f} mm apart, and the tips leave their paths by "
+            "no more than "
+            f"{1e6 * motion.largest_error:.0f} um in either case. Avoidance is paid in joint "
+            "motion: the integral of "
+            f"the squared speed grows by a factor of {motion.energy / naive.energy:.2f}, the "
+            "largest acceleration from "
+            f"{naive.peak_acceleration:.1f} to {motion.peak_acceleration:.1f} rad/s^2."
+        ),
+        alt=(
+            "Two pictures of two arms, crossing each other without avoidance and apart with it; "
+            "below, their "
+            "distance over time, which falls below zero without avoidance and stays above the "
+            "inner range with it."
+        ),
+        figure=lambda: _comparison_figure(scenario, settings, naive, motion),
+        scene=lambda: _scene(scenario, motion),
+    )
+
+
+def _measures(motion: Motion) -> tuple[float, ...]:
+    return (
+        motion.smallest_distance,
+        motion.largest_error,
+        motion.peak_speed,
+        motion.peak_acceleration,
+        motion.energy,
+        float(np.abs(motion.q[-1] - motion.q[0]).max()),
+    )
+
+
+def _skeletons(scenario: Frozen, q: np.ndarray) -> list[np.ndarray]:
+    arms = scenario.system.arms
+    return [
+        skeleton(p.arm, part, p.placement) for p, part in zip(arms, np.split(q, 2), strict=True)
+    ]
+
+
+def _tip_paths(scenario: Frozen) -> list[np.ndarray]:
+    times = np.linspace(0.0, scenario.period, 121)
+    points = np.array([scenario.circles.at(t)[0] for t in times])
+    return [points[:, 0], points[:, 1]]
+
+
+def _comparison_figure(scenario: Frozen, settings: Settings, naive: Motion, motion: Motion) -> Any:
+    worst = int(naive.distance.argmin())
+    at = min(worst, len(motion.q) - 1)
+    paths = _tip_paths(scenario)
+    return comparison_figure(
+        {
+            "without avoidance": (naive.time, naive.distance),
+            "with avoidance": (motion.time, motion.distance),
+        },
+        {
+            "without avoidance": [*_skeletons(scenario, naive.q[worst]), *paths],
+            "with avoidance": [*_skeletons(scenario, motion.q[at]), *paths],
+        },
+        (settings.inner, settings.outer),
+    )
+
+
+def _scene(scenario: Frozen, motion: Motion) -> Scene3D:
+    made = Scene3D(f"{scenario.title}: the motion with avoidance.", camera=(1.9, 0.4, 1.3))
+    every = max(1, round(0.1 / motion.dt))
+    path = motion.q[::every]
+    halves = np.split(path, 2, axis=1)
+    for placed, part, color, points in zip(
+        scenario.system.arms, halves, (MASTER, SLAVE), _tip_paths(scenario), strict=True
+    ):
+        made.add_arm(placed.name, placed.arm, part[0], placed.placement, color)
+        made.add_path(f"{placed.name} path", points, color)
+    made.animate(
+        {p.name: (p.arm, part) for p, part in zip(scenario.system.arms, halves, strict=True)},
+        fps=10,
+        every=1,
+    )
+    return made

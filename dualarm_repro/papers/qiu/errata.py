@@ -1,0 +1,287 @@
+"""Machine proofs of the errata of `qiu`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ...ledger import REGISTRY, Proof
+from ...planning.bidirectional import repulsive_torque, surroundings_at
+from ...planning.control_points import end_effector
+from ...planning.failure import Failure, classify
+from ...planning.repulsive_force import inverse_distance_force
+from ...planning.search_problem import search_problem
+from ...planning.tip_goal import nearest_posture
+from .execution import executed
+from .hull_model import protrusions
+from .readings import (
+    CONTROL_POINTS,
+    HULL,
+    TRADITIONAL_VARIANT,
+    dual_plan,
+    improved_plan,
+    reconstructed,
+    settings,
+    smooth,
+    traditional_plan,
+)
+from .scenario import (
+    BASES,
+    CENTRES,
+    ETA0,
+    INFLUENCE,
+    MASTER_GOAL,
+    MEETING,
+    RADIUS,
+    SEED,
+    START,
+    THRESHOLD,
+    TRAP,
+    ZETA,
+    placed,
+    reach,
+    repelling,
+    shoulder,
+)
+from .two_sided import truth
+
+_DIRECTIONS = 400
+
+
+def _nominal() -> dict[str, Any]:
+    return {key: entry.value for key, entry in REGISTRY.papers["qiu"].assumptions.items()}
+
+
+@REGISTRY.proves("qiu.start_tip")
+def start_tip() -> Proof:
+    """The tip at zero joints of both arms against both printed tips."""
+    gaps = {}
+    for name, item, key in (
+        ("master", "claim_start", "tcp"),
+        ("slave", "claim_slave_task", "start"),
+    ):
+        printed = np.array([float(x) for x in REGISTRY.item(f"qiu.{item}").printed[key]])
+        gaps[name] = (end_effector(placed(name), START) - printed).tolist()
+    largest = max(float(np.linalg.norm(gap)) for gap in gaps.values())
+    return Proof(
+        "at zero joints both flanges miss the printed tips by 6 mm in y and 10 mm in height",
+        bool(np.allclose(list(gaps.values()), [0.0, -0.006, 0.010], atol=1e-9)),
+        {"differences": gaps, "distance": largest},
+    )
+
+
+@REGISTRY.proves("qiu.goal_out_of_reach")
+def goal_out_of_reach() -> Proof:
+    """Distance of the printed goal from the shoulder against the straight arm, and by
+    optimisation.
+    """
+    distance = float(np.linalg.norm(MASTER_GOAL - shoulder(BASES["master"])))
+    best = nearest_posture(placed("master"), MASTER_GOAL, START)
+    return Proof(
+        "no posture brings the flange to the printed goal: the straight arm is shorter than its "
+        "distance "
+        "from the shoulder, and the best posture found misses it by just that much",
+        distance > reach() and abs(best.residual - (distance - reach())) < 1e-6,
+        {
+            "distance": distance,
+            "reach": reach(),
+            "shortfall": distance - reach(),
+            "found": best.residual,
+        },
+    )
+
+
+@REGISTRY.proves("qiu.singular_goal")
+def singular_goal() -> Proof:
+    """Singular values of the Jacobian at the nearest reachable posture and along the path used."""
+    arm = placed("master").arm
+    best = nearest_posture(placed("master"), MASTER_GOAL, START)
+    position = np.linalg.svd(arm.jacobian(best.q)[:3], compute_uv=False)
+    path = smooth(_nominal(), improved_plan(_nominal()))
+    along = np.linalg.svd(arm.jacobian(path), compute_uv=False)[:, -1]
+    return Proof(
+        "where the flange is nearest to the printed goal the arm cannot move it further out: the "
+        "position "
+        "Jacobian is singular",
+        bool(position[-1] < 1e-3 * position[0]),
+        {
+            "position_singular_values": position.tolist(),
+            "smallest_along_the_path_used": float(along.min()),
+        },
+    )
+
+
+@REGISTRY.proves("qiu.symmetry_axis")
+def symmetry_axis() -> Proof:
+    """Reflections of the master base in the coordinate axes and planes."""
+    master, slave = BASES["master"], BASES["slave"]
+    about_x = master * [1, -1, -1]
+    in_yz = master * [-1, 1, 1]
+    shift = slave - master
+    return Proof(
+        "a half turn about the X axis leaves the master base where it is; a reflection in the YZ "
+        "plane, or "
+        "a translation along X, carries it to the slave base",
+        bool(
+            np.allclose(about_x, master)
+            and np.allclose(in_yz, slave)
+            and np.allclose(shift[1:], 0.0)
+        ),
+        {"about_x": about_x.tolist(), "in_yz": in_yz.tolist(), "translation": shift.tolist()},
+    )
+
+
+@REGISTRY.proves("qiu.base_yaw")
+def base_yaw() -> Proof:
+    """Distance of the tip at zero joints from the printed tip for the four quarter turns."""
+    printed = np.array([float(x) for x in REGISTRY.item("qiu.claim_start").printed["tcp"]])
+    gaps = {
+        yaw: float(np.linalg.norm(end_effector(placed("master", yaw=yaw), START) - printed))
+        for yaw in (0.0, 90.0, 180.0, 270.0)
+    }
+    near = [yaw for yaw, gap in gaps.items() if gap < 0.02]
+    return Proof(
+        "of the four quarter turns only one brings the tip at zero joints near the printed one",
+        near == [90.0],
+        {f"{yaw:g} deg": gap for yaw, gap in gaps.items()},
+    )
+
+
+@REGISTRY.proves("qiu.gains_against_points")
+def gains_against_points() -> Proof:
+    """Repulsion over the largest attraction with the flange at the printed trap, over all postures.
+
+    The flange is put at the trap in many orientations and every branch of the inverse kinematics.
+    """
+    arm = placed("master")
+    ratios = []
+    made = search_problem(arm, START, START, repelling(), settings(_nominal(), TRADITIONAL_VARIANT))
+    target, gains = arm.placement.inverse().act(TRAP), np.full(len(made.points.joint), ETA0)
+    for rotation in _rotations():
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = rotation, target
+        for q in arm.arm.ik(pose):
+            found = surroundings_at(made, 0, q, 0)
+            torque = repulsive_torque(made, found, gains)
+            ratios.append(float(np.linalg.norm(torque)) / (THRESHOLD * ZETA))
+    surface = [float(np.linalg.norm(p - CENTRES[0]) - RADIUS) for p in (TRAP, *MEETING)]
+    flange = inverse_distance_force(surface[0], ETA0, INFLUENCE, 1e-3)
+    return Proof(
+        "with the textbook form of (7)-(9) and the printed gains, no posture that has its flange "
+        "at the "
+        "printed trap is in balance: repulsion exceeds the largest possible attraction in all of "
+        "them",
+        min(ratios) > 10.0,
+        {
+            "postures": len(ratios),
+            "least_repulsion_over_attraction": min(ratios),
+            "force_on_the_flange": float(flange),
+            "largest_attraction": THRESHOLD * ZETA,
+            "distances_of_printed_points": surface,
+            "balance_distance": _balance_distance(),
+        },
+    )
+
+
+def _rotations() -> np.ndarray:
+    return Rotation.random(_DIRECTIONS, rng=np.random.default_rng(SEED)).as_matrix()
+
+
+def _balance_distance() -> float:
+    """Distance at which the force on one point equals the largest attraction (lever of half a
+    metre).
+    """
+    rho = np.linspace(0.01, INFLUENCE, 100_001)
+    force = 0.5 * ETA0 * (1.0 / rho - 1.0 / INFLUENCE) / rho**2
+    return float(rho[np.abs(force - THRESHOLD * ZETA).argmin()])
+
+
+@REGISTRY.proves("qiu.goal_inside_range")
+def goal_inside_range() -> Proof:
+    """Distances of the printed goal from both spheres, and the class of the failed one-way
+    search.
+    """
+    gaps = (np.linalg.norm(MASTER_GOAL - CENTRES, axis=1) - RADIUS).tolist()
+    plan = traditional_plan(_nominal())
+    failure = classify(plan)
+    return Proof(
+        "both spheres reach the goal with their repulsion, and the one-way search with the printed "
+        "gains "
+        "fails because its goal is no equilibrium: begun at the goal, it rests at the same place",
+        max(gaps) < INFLUENCE and failure is Failure.DISPLACED_GOAL,
+        {"goal_to_surfaces": gaps, "failure": str(failure), "searches": plan.searches},
+    )
+
+
+@REGISTRY.proves("qiu.control_point_frames")
+def control_point_frames() -> Proof:
+    """Origins of joints 3, 5 and 6 under a modified table and in a robot description."""
+    arm = placed("master").arm
+    origins = arm.joint_positions(START)
+    modified = origins[[2, 4, 5]]
+    described = origins[np.array(CONTROL_POINTS["elbow_wrist_flange"][0]) - 1]
+    return Proof(
+        "with the frames of a modified table the last two control points are one point; with those "
+        "of a "
+        "robot description the three are distinct",
+        bool(
+            np.linalg.norm(modified[1] - modified[2]) < 1e-12
+            and np.linalg.norm(described[1] - described[2]) > 0.01
+        ),
+        {"modified": modified.tolist(), "description": described.tolist()},
+    )
+
+
+@REGISTRY.proves("qiu.hull_incomplete")
+def hull_incomplete() -> Proof:
+    """How far links stick out of the hull over random postures."""
+    arm, values = placed("master"), _nominal()
+    q = arm.arm.random_configurations(100, np.random.default_rng(SEED))
+    sticking = protrusions(arm, q, {name: values[name] for name in HULL})
+    always = float(sticking.max(axis=1).min())
+    return Proof(
+        "in every one of 100 random postures a link sticks out of the hull",
+        always > 0.0,
+        {
+            "least": always,
+            "median": float(np.median(sticking.max(axis=1))),
+            "largest": float(sticking.max()),
+        },
+    )
+
+
+@REGISTRY.proves("qiu.collision_scope")
+def collision_scope() -> Proof:
+    """The joint plan of both arms at face value: clear at the control points, not for whole
+    links.
+    """
+    plan = dual_plan(_nominal())
+    check = executed(plan)
+    seen = plan.slave.control_clearance
+    return Proof(
+        "one and the same plan is free for the control points and collides with whole links, so "
+        "that the "
+        "statement depends on the geometry it was tested for",
+        seen > 0.0 > check.clearance["arms"],
+        {"control_points": seen, "links": check.clearance["arms"]},
+    )
+
+
+@REGISTRY.proves("qiu.smoothing_clearance")
+def smoothing_clearance() -> Proof:
+    """Clearance before and after the spline, for growing mu."""
+    values = _nominal()
+    plan = improved_plan(values | reconstructed(values, ()))
+    before = truth(plan).clearance
+    changes = {}
+    for mu in (0.1, 1.0, 10.0, 100.0, 1e4):
+        after = truth(plan, smooth(values | {"smoothing_weight": mu}, plan)).clearance
+        changes[f"{mu:g}"] = {name: after[name] - before[name] for name in before}
+    worst = min(change for row in changes.values() for change in row.values())
+    return Proof(
+        "smoothing brings the reconstructed path closer to an obstacle, the more so the larger mu",
+        worst < -1e-4,
+        {"change_of_clearance_by_mu": changes, "worst": worst},
+    )

@@ -1,0 +1,362 @@
+"""Figures 1-3, Table 1, equations (1)-(3) and the bases of `qiu`."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+import sympy as sp
+
+from ...arms import load_arm
+from ...arms.dh import joint_symbols
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
+from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
+from ...view.scene3d import Scene3D
+from ...view.style import MASTER, SLAVE
+from ..wording import point
+from .scenario import BASES, ROBOT, SEED, START, lengths, placed, robot
+
+checks = partial(REGISTRY.checks, page="qiu/geometry")
+_INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
+
+
+@checks(
+    "qiu.fig01",
+    rules=[
+        Bounded(key="difference", high=1e-12, label="lengths drawn differ from the arm's by [m]"),
+        NeedsPrinted(key="dimensions", label="the dimensions inside the drawing"),
+    ],
+)
+def dimensions(assumed: Assumed) -> Result:
+    """Side view of the public arm with its dimensions."""
+    size = lengths()
+    difference = max(abs(size[name] - value) for name, value in assumed["link_lengths"].items())
+    d1, a2, a3, d4, d6 = (size[name] for name in ("d1", "a2", "a3", "d4", "d6"))
+    outline = np.array(
+        [
+            [0, 0],
+            [0, d1],
+            [0, d1 + a2],
+            [0, d1 + a2 + a3],
+            [d4, d1 + a2 + a3],
+            [d4 + d6, d1 + a2 + a3],
+        ]
+    )
+    lines = [
+        (name, outline[k], outline[k + 1], offset)
+        for k, (name, offset) in enumerate(
+            (
+                ("d1", (-0.08, 0)),
+                ("a2", (-0.08, 0)),
+                ("a3", (-0.08, 0)),
+                ("d4", (0, 0.08)),
+                ("d6", (0, 0.08)),
+            )
+        )
+    ]
+    return Result(
+        obtained={"lengths": size, "difference": difference},
+        caption=(
+            "Dimensions of the public IRB 120 in millimetres: "
+            + ", ".join(f"{name} = {1000 * value:.0f}" for name, value in size.items())
+            + ". The drawing itself is lost, so nothing printed stands against them."
+        ),
+        alt="Side view of the arm at zero joints as a line from base over elbow and wrist to the "
+        "flange, "
+        "with its five lengths in millimetres.",
+        figure=lambda: dimension_drawing(outline, lines),
+    )
+
+
+@checks(
+    "qiu.fig02",
+    rules=[
+        Bounded(
+            key="convention_difference",
+            high=1e-12,
+            label="both conventions put the flange alike to [m]",
+        ),
+        NeedsPrinted(key="frames", label="the link frames of the sketch"),
+    ],
+)
+def link_frames(assumed: Assumed) -> Result:
+    """Frames of the standard table at zero joints, and the flange by either convention."""
+    frames = _frames_at_zero()
+    tip = load_arm(ROBOT).fk(START)[:3, 3]
+    lengths_used, convention = assumed["link_lengths"], assumed["dh_convention"]
+    difference = float(np.linalg.norm(_modified_tip(lengths_used) - tip))
+    return Result(
+        obtained={
+            "convention": convention,
+            "flange": tip.tolist(),
+            "convention_difference": difference,
+            "coinciding_origins": _coinciding(frames[1:]),
+        },
+        caption=(
+            f"Link frames of the standard table at zero joints; the flange is at ({point(tip, 3)}) "
+            "m. "
+            "A modified table of the same lengths puts the flange at the same place. The sketch is "
+            "lost."
+        ),
+        alt="Seven coordinate frames on the skeleton of the arm at zero joints, from base to "
+        "flange.",
+        figure=lambda: frames_figure(frames, 0.09),
+    )
+
+
+@checks(
+    "qiu.tab01",
+    rules=[
+        Bounded(
+            key="second_model",
+            high=1e-12,
+            label="largest difference of the two models' flanges [m]",
+        ),
+        NeedsPrinted(key="rows", label="the rows of the table"),
+    ],
+)
+def table_1(assumed: Assumed) -> Result:
+    """The table of the public arm, checked against a chain of plain offsets along fixed axes."""
+    arm, made = load_arm(ROBOT), robot()
+    q = arm.random_configurations(500, np.random.default_rng(SEED))
+    other = np.array([_offset_chain(row, assumed["link_lengths"]) for row in q])
+    difference = float(np.abs(arm.fk(q)[:, :3, 3] - other).max())
+    rows = [
+        {
+            "i": k,
+            "theta": f"q{k} + {float(j.offset):.4f}",
+            "d": j.d,
+            "a": j.a,
+            "alpha": float(j.alpha),
+        }
+        for k, j in enumerate(made.joints, 1)
+    ]
+    return Result(
+        obtained={
+            "convention": assumed["dh_convention"],
+            "d": [j.d for j in made.joints],
+            "a": [j.a for j in made.joints],
+            "alpha": [float(j.alpha) for j in made.joints],
+            "second_model": difference,
+        },
+        table=pd.DataFrame(rows),
+        caption=(
+            "The standard table of the public arm agrees on 500 random configurations with a "
+            "second "
+            f"model that knows only offsets and axes, to {difference:.1e} m. The printed rows are "
+            "lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq01",
+    rules=[
+        Is(key="product_is_arm", value=True, label="link transforms multiply to the arm's T(q)"),
+        Is(key="rotations_orthonormal", value=True, label="every link transform is a rigid motion"),
+        NeedsPrinted(key="formula", label="the link transform"),
+    ],
+)
+def link_transform(assumed: Assumed) -> Result:
+    """The link transform of the standard convention in symbols."""
+    arm = load_arm(ROBOT)
+    transforms = arm.link_transforms()
+    rigid = all((m[:3, :3].T * m[:3, :3]).applyfunc(sp.simplify) == sp.eye(3) for m in transforms)
+    product = sp.eye(4)
+    for transform in transforms:
+        product = (product * transform).applyfunc(sp.expand)
+    return Result(
+        obtained={
+            "convention": assumed["dh_convention"],
+            "product_is_arm": product == arm.symbolic_fk(),
+            "rotations_orthonormal": rigid,
+        },
+        caption=(
+            f"Each of the {len(transforms)} link transforms Rz(theta) Tz(d) Tx(a) Rx(alpha) is a "
+            "rigid "
+            "motion in symbols and their product is the arm's. The printed formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq02",
+    rules=[
+        Bounded(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
+        Bounded(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),
+        NeedsPrinted(key="formula", label="the product of transforms"),
+    ],
+)
+def end_effector(assumed: Assumed) -> Result:
+    """The product of six link transforms in random postures, three ways."""
+    arm = load_arm(ROBOT)
+    q = arm.random_configurations(300, np.random.default_rng(SEED))
+    entries = sp.lambdify(joint_symbols(6), list(arm.symbolic_fk()), "numpy", cse=True)(*q.T)
+    symbolic = np.stack([np.broadcast_to(e, len(q)) for e in entries], axis=1).reshape(-1, 4, 4)
+    single = np.array([arm.fk(row) for row in q])
+    return Result(
+        obtained={
+            "convention": assumed["dh_convention"],
+            "reach_of_upper_arm": assumed["link_lengths"]["a2"],
+            "pinocchio": float(np.abs(symbolic - single).max()),
+            "kernel": float(np.abs(symbolic - arm.fk(q)).max()),
+        },
+        caption=(
+            "The product of six link transforms in symbols agrees with Pinocchio on 300 random "
+            "postures "
+            f"to {np.abs(symbolic - single).max():.1e}. The printed formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq03",
+    rules=[
+        Bounded(
+            key="miss",
+            high=1e-12,
+            label="translated master base misses the printed slave base by [m]",
+        ),
+        Bounded(key="translation_length", low=0.1, label="the translation is not zero [m]"),
+    ],
+)
+def base_translation(assumed: Assumed) -> Result:
+    """The translation that carries the printed master base to the printed slave base."""
+    printed = REGISTRY.item("qiu.claim_bases").printed
+    master, slave = (np.array([float(x) for x in printed[name]]) for name in ("master", "slave"))
+    shift = pin.SE3(np.eye(3), np.array([assumed["base_translation"], 0.0, 0.0]))
+    carried = shift.act(master)
+    return Result(
+        obtained={
+            "slave_base": carried.tolist(),
+            "miss": float(np.linalg.norm(carried - slave)),
+            "translation_length": float(np.linalg.norm(shift.translation)),
+        },
+        caption=(
+            f"A translation by {shift.translation[0]:.3f} m along x carries the printed master "
+            "base to "
+            f"({point(carried, 3)}) m, the printed slave base; no rotation is involved."
+        ),
+    )
+
+
+@checks(
+    "qiu.fig03",
+    rules=[
+        Rounds(key="base_master", to="base_master", label="base of the master [m]", **_INPUT),
+        Rounds(key="base_slave", to="base_slave", label="base of the slave [m]", **_INPUT),
+        NeedsPrinted(key="orientation", label="the orientation of the bases"),
+    ],
+)
+def both_arms(assumed: Assumed) -> Result:
+    """Both arms in their start posture on the printed bases."""
+    arms = {name: placed(name, yaw=assumed["base_yaw"]) for name in BASES}
+    bases = {name: arm.placement.translation for name, arm in arms.items()}
+    bases["slave"] = bases["master"] + np.array([assumed["base_translation"], 0.0, 0.0])
+    difference = max(
+        abs(lengths()[name] - value) for name, value in assumed["link_lengths"].items()
+    )
+
+    def scene() -> Scene3D:
+        made = Scene3D("Both arms at zero joints on the printed bases.", camera=(1.6, 1.9, 1.3))
+        for (name, arm), color in zip(arms.items(), (MASTER, SLAVE), strict=True):
+            made.add_arm(name, arm.arm, START, arm.placement, color)
+        return made
+
+    return Result(
+        obtained={
+            "base_master": bases["master"].tolist(),
+            "base_slave": bases["slave"].tolist(),
+            "length_difference": difference,
+        },
+        caption=(
+            f"Both arms at zero joints, turned by {assumed['base_yaw']:g} deg about the vertical. "
+            "The "
+            "bases mirror each other in the yz plane, yet the arms do not: one is the other moved "
+            f"{abs(assumed['base_translation']):g} m along x."
+        ),
+        alt="Stick figures of two equal arms side by side, both reaching along y at the same "
+        "height.",
+        figure=lambda: stick_figure({n: (a.arm, START, a.placement) for n, a in arms.items()}),
+        scene=scene,
+    )
+
+
+@checks(
+    "qiu.claim_bases",
+    rules=[
+        Adopts(key="master", to="master", label="base of the master [m]"),
+        Adopts(key="slave", to="slave", label="base of the slave [m]"),
+    ],
+)
+def bases(assumed: Assumed) -> Result:
+    """Positions of the bases in the scenario."""
+    arms = {name: placed(name, yaw=assumed["base_yaw"]).placement for name in BASES}
+    shift = float((arms["slave"].translation - arms["master"].translation)[0])
+    return Result(
+        obtained={
+            **{name: placement.translation.tolist() for name, placement in arms.items()},
+            "translation_error": abs(shift - assumed["base_translation"]),
+        },
+        caption=(
+            f"Both bases are used as printed, {abs(shift):.3f} m apart along x, and turned by "
+            f"{assumed['base_yaw']:g} deg, which is not printed."
+        ),
+    )
+
+
+def _frames_at_zero() -> np.ndarray:
+    """Base frame and the six frames of the table at zero joints (7, 4, 4)."""
+    zero = {symbol: 0 for symbol in joint_symbols(6)}
+    frames = [np.eye(4)]
+    for transform in load_arm(ROBOT).link_transforms():
+        frames.append(frames[-1] @ np.array(transform.subs(zero).evalf(), dtype=float))
+    return np.array(frames)
+
+
+def _coinciding(frames: np.ndarray) -> list[list[int]]:
+    """Pairs of link frames (numbered from 1) with a common origin."""
+    origins = frames[:, :3, 3]
+    count = len(origins)
+    return [
+        [i + 1, j + 1]
+        for i in range(count)
+        for j in range(i + 1, count)
+        if np.linalg.norm(origins[i] - origins[j]) < 1e-12
+    ]
+
+
+def _offset_chain(q: np.ndarray, size: dict[str, float]) -> np.ndarray:
+    """Flange from offsets and the axes z, y, y, x, y, x, as a robot description gives them (3,)."""
+    steps = (
+        ((0.0, 0.0, 0.0), "z"),
+        ((0.0, 0.0, size["d1"]), "y"),
+        ((0.0, 0.0, size["a2"]), "y"),
+        ((0.0, 0.0, size["a3"]), "x"),
+        ((size["d4"], 0.0, 0.0), "y"),
+        ((size["d6"], 0.0, 0.0), "x"),
+    )
+    pose = pin.SE3.Identity()
+    for angle, (offset, axis) in zip(q, steps, strict=True):
+        pose = pose * pin.SE3(pin.utils.rotate(axis, float(angle)), np.array(offset))
+    return pose.translation
+
+
+def _modified_tip(size: dict[str, float]) -> np.ndarray:
+    """Flange at zero joints by a modified table of the same arm (3,) [m]."""
+    half = np.pi / 2
+    rows = (
+        (0.0, 0.0, size["d1"], 0.0),
+        (-half, 0.0, 0.0, -half),
+        (0.0, size["a2"], 0.0, 0.0),
+        (-half, size["a3"], size["d4"], 0.0),
+        (half, 0.0, 0.0, 0.0),
+        (-half, 0.0, size["d6"], np.pi),
+    )
+    pose = pin.SE3.Identity()
+    for alpha, a, d, theta in rows:
+        pose = pose * pin.SE3(pin.utils.rotate("x", alpha), np.array([a, 0.0, 0.0]))
+        pose = pose * pin.SE3(pin.utils.rotate("z", theta), pin.utils.rotate("z", theta)[:, 2] * d)
+    return pose.translation

@@ -1,0 +1,195 @@
+"""The layout lottery: random arrangements in which Fig. 9 holds, and what both methods do there.
+
+Bases, window and its opening are not printed. One arrangement can be found for nearly any outcome of
+Table 2; the share of arrangements that show it says what the printed facts alone imply.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+
+from ...ledger import REGISTRY, Study
+from ...planning.problem import problem
+from .chosen import KEPT, Chosen, assumption, nominal
+from .facts import flange_to_window, flanges_apart, flanges_apart_moving, points_to_window
+from .layout import Layout, placed_master, placed_slave
+from .methods import improved
+from .motions import (
+    Case,
+    attempt,
+    master_plan,
+    master_track,
+    master_undisturbed,
+    slave_obstacles,
+    slave_plan,
+    slave_undisturbed,
+)
+from .scenario import SLAVE_END, SLAVE_START
+from .sources import ROBOTS, SOURCES
+from .trials import METHODS, TRIALS, outcomes, starts
+from .truth import link_cores
+
+LAYOUTS = 1000
+#: Ranges of the uniform draws, metres; the rest of an arrangement is as assumed.
+RANGES: dict[str, Any] = {
+    "master_about_meeting": 0.3,
+    "slave_base_y": (-1.2, 2.0),
+    "smallest_base_distance": 0.5,
+    "window_about_midpoint": 0.45,
+    "opening_width": (0.4, 1.2),
+    "opening_height": (0.35, 1.2),
+    "bar": (0.05, 0.15),
+    "normals": ("x", "y", "chord"),
+    "undisturbed_steps": 100,
+}
+
+
+def draw(rng: np.random.Generator, given: Case) -> Layout:
+    """A random arrangement in which the arms are likely to meet.
+
+    An instant k is drawn; the master's base is put where its undisturbed end effector passes the
+    straight line from Start to End at that instant, and is then moved by up to
+    ``master_about_meeting`` along each axis. The slave stands beside it.
+    """
+    like = given.layout
+    master = master_undisturbed(like, given.method).tcp - like.master_base
+    k = int(rng.integers(len(master)))
+    share = min(k / RANGES["undisturbed_steps"], 1.0)
+    about = RANGES["master_about_meeting"]
+    base = (
+        SLAVE_START + share * (SLAVE_END - SLAVE_START) - master[k] + rng.uniform(-about, about, 3)
+    )
+    beside = rng.uniform(*RANGES["slave_base_y"])
+    spread = RANGES["window_about_midpoint"]
+    centre = 0.5 * (SLAVE_START + SLAVE_END) + rng.uniform(-spread, spread, 3)
+    return replace(
+        like,
+        **dict(
+            zip(("master_base_x", "master_base_y", "master_base_z"), base.tolist(), strict=True)
+        ),
+        base_distance=float(base[1] - beside),
+        **{f"window_centre_{axis}": float(c) for axis, c in zip("xyz", centre, strict=True)},
+        window_normal=str(rng.choice(RANGES["normals"])),
+        window_opening_width=rng.uniform(*RANGES["opening_width"]),
+        window_opening_height=rng.uniform(*RANGES["opening_height"]),
+        window_bar=rng.uniform(*RANGES["bar"]),
+    )
+
+
+def fig_9_holds(case: Case, meeting: float) -> bool:
+    """Whether the undisturbed slave enters a bar and meets the master on its way past the window.
+
+    Its control points have to be outside the bars at Start and End, or nothing could be planned.
+    """
+    layout = case.layout
+    if layout.base_distance < RANGES["smallest_base_distance"]:
+        return False
+    slave = slave_undisturbed(layout, case.method)
+    if slave is None or not slave.reached or flange_to_window(slave, layout).min() > 0.0:
+        return False
+    if points_to_window(slave, layout, case.method.control_points)[[0, -1]].min() <= 0.0:
+        return False
+    track = master_track(case)
+    if track is None:
+        return False
+    return bool(flanges_apart_moving(slave, placed_master(layout), track).min() <= meeting)
+
+
+def random_case(meeting: float, rng: np.random.Generator) -> tuple[Case, int, int]:
+    """An arrangement in which Fig. 9 holds and the slave can rest at its goal.
+
+    Also the number of draws, and how many of those with Fig. 9 were left because window or parked
+    master repel the slave at its goal, so that (13)-(16) cannot end there.
+    """
+    given, draws, repelled = nominal(), 0, 0
+    while True:
+        draws += 1
+        case = given._replace(layout=draw(rng, given))
+        if not fig_9_holds(case, meeting):
+            continue
+        if not repelled_at_goal(case):
+            return case, draws, repelled
+        repelled += 1
+
+
+def lottery_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """Both methods, the traditional one in both readings, from the same ten starts."""
+    case, draws, repelled = random_case(settings["meeting_distance"], rng)
+    begin = starts(case, settings["trial_perturbation"], TRIALS, rng)
+    row = {"draws": draws, "goal_repelled": repelled, **asdict(case.layout), **motion_row(case)}
+    return row | outcomes(
+        case, ("traditional", "five_points", "without_virtual", "improved"), begin
+    )
+
+
+def motion_row(case: Case) -> dict[str, Any]:
+    """Figs 8, 10 and 11 in one arrangement: ends, distances of points and of link cores [m]."""
+    layout, method = case.layout, case.method
+    first, slave = master_plan(layout, method), slave_plan(case)
+    undisturbed = master_undisturbed(layout, method)
+    row: dict[str, Any] = {
+        "master_steps": first.steps,
+        "master_distance": points_to_window(first, layout, method.control_points).min(),
+        "master_undisturbed": points_to_window(undisturbed, layout, method.control_points).min(),
+        "slave_reason": "start-collides" if slave is None else str(slave.reason),
+    }
+    if slave is None:
+        return row
+    track, master = master_track(case), placed_master(layout)
+    cores = link_cores(layout, slave, track)
+    to_bars = cores.between("slave", "window")
+    traditional = attempt(
+        slave.placed,
+        slave.placed.start,
+        slave_obstacles(case),
+        METHODS["traditional"].settings(case),
+    )
+    return row | {
+        "slave_steps": slave.steps,
+        "slave_length": slave.length,
+        "traditional_reached": traditional is not None and traditional.reached,
+        "traditional_length": np.nan if traditional is None else traditional.length,
+        "slave_points": slave.clearance.min(),
+        "slave_flange_window": flange_to_window(slave, layout).min(),
+        "flanges_apart": flanges_apart(slave, master, track).min(),
+        **{f"cores_{name}": value for name, value in cores.smallest.items()},
+        "cores_start": to_bars[0],
+        "cores_goal": to_bars[-1],
+        "nearest_link": cores.nearest("slave", "window")[0],
+    }
+
+
+def repelled_at_goal(case: Case) -> bool:
+    """Whether window or parked master repels the slave at its goal, so that it cannot rest there."""
+    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
+    settings = improved(case.method, case.layout.window_centre, placed.goal)
+    made = problem(placed, placed.start, placed.goal, obstacles, settings)
+    return made.repels_at_goal(len(obstacles.cores) - 1)
+
+
+def _cells() -> list[dict[str, Any]]:
+    frozen = {key: assumption(key) for key in ("meeting_distance", "trial_perturbation")}
+    return [{"layout": k, **frozen} for k in range(LAYOUTS)]
+
+
+LOTTERY = REGISTRY.keeps(
+    Study(
+        name="xue_lottery",
+        title="Random arrangements in which Fig. 9 holds: outcome of every method, clearance of links",
+        cells=_cells,
+        compute=lottery_cell,
+        sources=SOURCES,
+        inputs=ROBOTS,
+        seed=20200344,
+        settings=Chosen(
+            (*KEPT, "meeting_distance", "trial_perturbation"),
+            layouts=LAYOUTS,
+            trials=TRIALS,
+            ranges=RANGES,
+        ),
+    )
+)

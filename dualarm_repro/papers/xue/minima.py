@@ -1,0 +1,71 @@
+"""Minima of (13) where there is no obstacle: the sum of position and joint term is not convex."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ...arms import load_arm
+from ...ledger import REGISTRY, Study
+from ...planning.potentials import JointAttraction, PositionAttraction, Sum
+from ...scene import PlacedArm
+from .scenario import GAINS
+from .sources import ROBOTS
+
+PAIRS = 40
+BLOCKS = 10
+#: Weights of the joint term [m^2/rad^2]; lengths in centimetres act as 1e-4, in millimetres as 1e-6.
+WEIGHTS = (1e-6, 1e-4, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
+ARRIVED = 0.02  # [rad]
+FLAT = 1e-7  # |dU/dq| of a minimum
+
+
+def minima_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """Descents from random starts to random goals; how many rest in a minimum elsewhere."""
+    arm, weight = load_arm("es165d"), settings["weight"]
+    placed = PlacedArm("arm", arm)
+    trapped = flat = 0
+    for start, goal in zip(*(arm.random_configurations(PAIRS, rng) for _ in range(2)), strict=True):
+        field = Sum(
+            [
+                PositionAttraction(placed, arm.positions(goal), GAINS["k_a"]),
+                JointAttraction(goal, GAINS["k_a"] * weight),
+            ]
+        )
+        end = _descend(field, start)
+        if np.abs(end - goal).max() > ARRIVED:
+            trapped += 1
+            flat += bool(np.linalg.norm(field.gradient(end)) <= FLAT)
+    return {"pairs": PAIRS, "elsewhere": trapped, "minima": flat}
+
+
+def _descend(field: Sum, start: np.ndarray) -> np.ndarray:
+    """End of a quasi-Newton descent, restarted until it no longer moves."""
+    q = start
+    for _ in range(5):
+        found = minimize(field.value, q, jac=field.gradient, method="BFGS", options={"gtol": 1e-10})
+        if np.abs(found.x - q).max() < 1e-6:
+            break
+        q = found.x
+    return found.x
+
+
+def _cells() -> list[dict[str, Any]]:
+    return [{"weight": weight, "block": k} for weight in WEIGHTS for k in range(BLOCKS)]
+
+
+MINIMA = REGISTRY.keeps(
+    Study(
+        name="xue_minima",
+        title="Minima of (13) without obstacles, over the weight of the joint term",
+        cells=_cells,
+        compute=minima_cell,
+        sources=("arms", "planning/potentials.py", "papers/xue/minima.py"),
+        inputs=ROBOTS,
+        seed=20200347,
+        settings={"pairs": PAIRS, "weights": WEIGHTS, "arrived": ARRIVED, "flat": FLAT},
+    )
+)

@@ -1,0 +1,76 @@
+"""Planning: artificial potential fields, master and slave, and what their plans are worth."""
+
+from .apf import plan_apf
+from .batch import Batch, perturbed, plan_batch
+from .certificate import Certificate, certify
+from .compiled import plan_apf_compiled
+from .control_points import ControlPoints, control_points
+from .link_clearance import LinkClearance, certified_clearance, link_clearance, require_links_clear
+from .master_slave import CoordinatedPlan, Task, at_tool_speed, plan_master_slave
+from .methods import METHODS, Method, method, plan_file, settings_schema
+from .obstacles import Obstacles, obstacles_of
+from .plan import Plan
+from .postures import posture
+from .potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
+from .settings import (
+    APFSettings,
+    Attraction,
+    Combination,
+    Repulsion,
+    StuckRule,
+    Switching,
+    Termination,
+    Trap,
+    Update,
+    UpdateRule,
+    VirtualPoint,
+)
+from .task_file import TaskSet, load_tasks
+from .termination import StopReason
+
+__all__ = [
+    "METHODS",
+    "APFSettings",
+    "Attraction",
+    "Batch",
+    "Certificate",
+    "Combination",
+    "ControlPoints",
+    "CoordinatedPlan",
+    "JointAttraction",
+    "LinkClearance",
+    "Method",
+    "Obstacles",
+    "Plan",
+    "PointRepulsion",
+    "PositionAttraction",
+    "Repulsion",
+    "StopReason",
+    "StuckRule",
+    "Sum",
+    "Switching",
+    "Task",
+    "TaskSet",
+    "Termination",
+    "Trap",
+    "Update",
+    "UpdateRule",
+    "VirtualPoint",
+    "at_tool_speed",
+    "certified_clearance",
+    "certify",
+    "control_points",
+    "link_clearance",
+    "load_tasks",
+    "method",
+    "obstacles_of",
+    "perturbed",
+    "plan_apf",
+    "plan_apf_compiled",
+    "plan_batch",
+    "plan_file",
+    "plan_master_slave",
+    "posture",
+    "require_links_clear",
+    "settings_schema",
+]

@@ -1,0 +1,114 @@
+"""A plan: the path of one arm, what acted on it step by step, and why it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+
+from ..scene.bodies import PlacedArm
+from ..scene.moving import JointPath
+from .certificate import Certificate
+from .control_points import end_effector
+from .termination import StopReason
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Result of a planner; row s belongs to step s, N = steps + 1 rows.
+
+    Attributes
+    ----------
+    placed : PlacedArm
+    goal : ndarray (nq,)
+        [rad]
+    path : ndarray (N, nq)
+        [rad]
+    attractive : ndarray (N,)
+        Potential of the goal, also while a virtual point replaces it.
+    repulsive : ndarray (N, K)
+        Potential of each control point.
+    virtual : ndarray (N,)
+        Potential of the virtual point, zero while it does not act.
+    clearance : ndarray (N, K)
+        Smallest signed distance of each control point to the obstacles [m]; infinite without any.
+    active : ndarray (N,) of bool
+        Whether the virtual point acted in the step taken from here.
+    point_names, obstacle_names : tuple of str
+        Of the control points and of the shapes the planner knew.
+    reason : StopReason
+    certificate : Certificate or None
+        None if the goal is reached.
+    activations, arrivals : int
+        How often a virtual point was switched on, and how often the arm came to it.
+    rescued : bool
+        Whether the goal was reached after a virtual point had been switched on in a trap.
+    outside_limits : tuple of str
+        Which of ``start``, ``goal`` and ``path`` leave the joint limits.
+    wall_time : float
+        Of planning [s].
+    """
+
+    placed: PlacedArm
+    goal: np.ndarray
+    path: np.ndarray
+    attractive: np.ndarray
+    repulsive: np.ndarray
+    virtual: np.ndarray
+    clearance: np.ndarray
+    active: np.ndarray
+    point_names: tuple[str, ...]
+    obstacle_names: tuple[str, ...]
+    reason: StopReason
+    certificate: Certificate | None
+    activations: int
+    arrivals: int
+    rescued: bool
+    outside_limits: tuple[str, ...]
+    wall_time: float
+
+    @property
+    def reached(self) -> bool:
+        """Whether the goal is reached."""
+        return self.reason is StopReason.REACHED
+
+    @property
+    def steps(self) -> int:
+        """Number of joint steps."""
+        return len(self.path) - 1
+
+    @cached_property
+    def tcp(self) -> np.ndarray:
+        """X, the flange in the world (N, 3) [m]."""
+        return end_effector(self.placed, self.path)
+
+    @property
+    def length(self) -> float:
+        """Length of the path in joint space, sum |dq| [rad]."""
+        return float(np.linalg.norm(np.diff(self.path, axis=0), axis=1).sum())
+
+    @property
+    def tcp_length(self) -> float:
+        """Length of the path of the flange [m]."""
+        return float(np.linalg.norm(np.diff(self.tcp, axis=0), axis=1).sum())
+
+    @property
+    def total(self) -> np.ndarray:
+        """Sum of the potentials (N,)."""
+        return self.attractive + self.repulsive.sum(axis=1) + self.virtual
+
+    def joint_path(self) -> JointPath:
+        """The path over the step, to be replayed by a moving arm."""
+        return JointPath(self.path)
+
+    def to_frame(self) -> pd.DataFrame:
+        """One row per step: joints q1 ... [rad], flange x, y, z [m], potentials, clearances [m]."""
+        columns = {f"q{j + 1}": angle for j, angle in enumerate(self.path.T)}
+        columns |= dict(zip("xyz", self.tcp.T, strict=True))
+        columns |= {"attractive": self.attractive, "virtual": self.virtual, "active": self.active}
+        for k, name in enumerate(self.point_names):
+            columns[f"repulsive {name}"] = self.repulsive[:, k]
+            columns[f"clearance {name}"] = self.clearance[:, k]
+        return pd.DataFrame(columns).rename_axis("step")

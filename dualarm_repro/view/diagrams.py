@@ -1,0 +1,64 @@
+"""Diagrams of boxes and arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+
+from .style import BLACK, BLUE, GREEN, ORANGE, house_style
+
+_COLORS = (BLUE, GREEN, ORANGE)
+
+
+def flow_chart(steps: Sequence[tuple[str, str, str]]) -> Any:
+    """Steps (part, text, code) from top to bottom, one column per part."""
+    parts = list(dict.fromkeys(part for part, _, _ in steps))
+    deepest = max(sum(step[0] == part for step in steps) for part in parts)
+    with house_style():
+        figure, ax = plt.subplots(figsize=(4.6 * len(parts), 1.15 * deepest + 0.6))
+        ax.axis("off")
+        ends = []
+        for column, part in enumerate(parts):
+            x, color = 1.5 * column, _COLORS[column]
+            ax.text(x, 0.75, part, ha="center", weight="bold", color=color)
+            own = [step for step in steps if step[0] == part]
+            for row, (_, text, code) in enumerate(own):
+                _box(ax, x, -row, f"{text}\n", color)
+                ax.text(
+                    x, -row - 0.14, code, ha="center", va="center", family="monospace", fontsize=7
+                )
+                if row:
+                    _arrow(ax, (x, 1 - row - 0.32), (x, -row + 0.32))
+            ends.append((x, 1 - len(own)))
+        for (x, y), nxt in zip(ends[:-1], range(1, len(parts)), strict=True):
+            _arrow(ax, (x + 0.66, y), (1.5 * nxt - 0.66, 0.0))
+        ax.set(xlim=(-0.72, 1.5 * len(parts) - 0.78), ylim=(0.45 - deepest, 1.0))
+    return figure
+
+
+def block_diagram(numbers: Mapping[str, str], program: Sequence[str]) -> Any:
+    """A device with numbered processor, memory and the program that lies in the memory."""
+    with house_style():
+        figure, ax = plt.subplots(figsize=(7.6, 4.0))
+        ax.axis("off")
+        ax.add_patch(plt.Rectangle((-0.78, -1.62), 3.3, 2.35, fill=False, color=BLACK, lw=1.2))
+        _box(ax, 0.0, 0.0, f"processor {numbers['processor']}", BLUE)
+        ax.add_patch(plt.Rectangle((0.95, -1.5), 1.45, 2.05, fill=False, color=GREEN, lw=1.2))
+        ax.text(1.68, 0.36, f"memory {numbers['memory']}", ha="center", color=GREEN)
+        lines = "\n".join(f"{k}. {text}" for k, text in enumerate(program, start=1))
+        ax.text(1.0, -0.55, f"program {numbers['program']}\n\n{lines}", va="center", fontsize=7.5)
+        _arrow(ax, (0.95, 0.0), (0.66, 0.0))
+        ax.set(xlim=(-0.85, 2.6), ylim=(-1.7, 0.8))
+    return figure
+
+
+def _box(ax: Any, x: float, y: float, text: str, color: str) -> None:
+    style = {"boxstyle": "round,pad=0.02", "fc": "white", "ec": color, "lw": 1.4}
+    ax.add_patch(plt.matplotlib.patches.FancyBboxPatch((x - 0.64, y - 0.3), 1.28, 0.6, **style))
+    ax.text(x, y, text, ha="center", va="center", fontsize=9)
+
+
+def _arrow(ax: Any, start: tuple[float, float], end: tuple[float, float]) -> None:
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": BLACK, "lw": 1.2})

@@ -1,0 +1,56 @@
+"""How attraction and repulsion act on a point in a plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from .style import BLACK, BLUE, GREEN, ORANGE, RED, house_style
+
+
+def force_field_figure(
+    potential: Callable[[np.ndarray], np.ndarray],
+    forces: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]],
+    goal: np.ndarray,
+    centre: np.ndarray,
+    radius: float,
+    points: np.ndarray,
+) -> Any:
+    """Level lines of a potential in the plane and, at some points, both forces and their sum.
+
+    Parameters
+    ----------
+    potential
+        U of points (N, 2).
+    forces
+        Attraction and repulsion (2,) at a point (2,); arrows show directions and relative lengths.
+    """
+    x, y = np.meshgrid(np.linspace(-0.2, 1.2, 141), np.linspace(-0.5, 0.6, 111))
+    values = potential(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(x.shape)
+    outside = np.hypot(x - centre[0], y - centre[1]) > 1.02 * radius
+    with house_style():
+        figure, ax = plt.subplots(figsize=(7.4, 5.2))
+        levels = np.quantile(values[outside], np.linspace(0.02, 0.97, 22))
+        ax.contour(x, y, np.where(outside, values, np.nan), levels=np.unique(levels), cmap="Greys",
+                   linewidths=0.8)  # fmt: skip
+        ax.add_patch(plt.Circle(centre, radius, color=ORANGE, alpha=0.5, label="obstacle"))
+        ax.plot(*goal, "*", color=BLACK, ms=14, label="goal")
+        for k, point in enumerate(points):
+            attraction, repulsion = forces(point)
+            scale = 0.22 / max(np.linalg.norm(attraction), np.linalg.norm(repulsion))
+            arrows = zip(
+                (attraction, repulsion, attraction + repulsion),
+                (GREEN, RED, BLUE),
+                ("attraction", "repulsion", "resultant"),
+                strict=True,
+            )
+            for force, color, name in arrows:
+                ax.quiver(*point, *(scale * force), color=color, angles="xy", scale_units="xy",
+                          scale=1, width=0.006, label=None if k else name)  # fmt: skip
+            ax.plot(*point, "o", color=BLACK, ms=4)
+        ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+        ax.legend(loc="lower left", ncols=2)
+    return figure

@@ -1,0 +1,69 @@
+"""What `dualarm plan` gives away: why each arm stopped, how close links came, paths and a scene."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from ..planning.master_slave import CoordinatedPlan
+from ..scene import Box, Sphere
+from .scene3d import Scene3D
+from .style import PALETTE
+
+#: Joint step between two link checks [rad].
+CHECK_STEP = 0.01
+_OBSTACLE = "#9A9A9A"
+
+
+def plan_summary(plan: CoordinatedPlan) -> dict[str, Any]:
+    """Outcome of every arm, and the smallest distance of any two bodies on the densified motion."""
+    links = plan.links(CHECK_STEP)
+    pair, step = links.nearest if links.pairs else ((), None)
+    return {
+        "arms": {
+            name: {
+                "reason": str(one.reason),
+                "steps": one.steps,
+                "joint_length_rad": one.length,
+                "tcp_length_m": one.tcp_length,
+                "outside_limits": list(one.outside_limits),
+                "certificate": asdict(one.certificate) if one.certificate else None,
+            }
+            for name, one in plan.plans.items()
+        },
+        "links": {
+            "minimum_distance_m": links.minimum,
+            "pair": list(pair),
+            "step": step,
+            "collision_free": links.minimum > 0.0,
+        },
+    }
+
+
+def plan_scene(plan: CoordinatedPlan, title: str) -> Scene3D:
+    """The motion of all arms among boxes and spheres, with the tracks of the flanges."""
+    arms = dict(zip(plan.plans, PALETTE, strict=False))
+    reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
+    made = Scene3D(title, camera=(2.0 * reach, -1.5 * reach, 1.5 * reach))
+    for name, shape in _solids(plan):
+        if isinstance(shape, Box):
+            pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
+            made.add_box(name, shape.size, pose, _OBSTACLE)
+        elif isinstance(shape, Sphere):
+            made.add_sphere(name, shape.center, shape.radius, _OBSTACLE)
+    for name, color in arms.items():
+        one = plan.plans[name]
+        made.add_arm(name, one.placed.arm, one.path[0], one.placed.placement, color)
+        made.add_path(f"{name} track", one.tcp, color)
+    made.animate({n: (p.placed.arm, p.path) for n, p in plan.plans.items() if p.steps})
+    return made
+
+
+def _solids(plan: CoordinatedPlan) -> list[tuple[str, Any]]:
+    found = []
+    for name, solid in plan.scene.obstacles.items():
+        shapes = solid if isinstance(solid, tuple | list) else (solid,)
+        found += [(f"{name} {k}", shape) for k, shape in enumerate(shapes)]
+    return found

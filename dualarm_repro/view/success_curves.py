@@ -1,0 +1,68 @@
+"""Success rates over a parameter, and distances over the samples of a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from .style import BLACK, PALETTE, house_style
+
+
+def rate_figure(
+    x: Sequence[float],
+    rates: Mapping[str, Mapping[str, Sequence[tuple[float, float, float]]]],
+    xlabel: str,
+    mark: tuple[float, str] | None = None,
+) -> Any:
+    """One panel per group: success rates with intervals (value, low, high) over a log scale."""
+    with house_style():
+        figure, axes = plt.subplots(1, len(rates), figsize=(5.2 * len(rates), 3.8), sharey=True)
+        for ax, (title, curves) in zip(np.atleast_1d(axes), rates.items(), strict=True):
+            for k, (name, values) in enumerate(curves.items()):
+                value, low, high = 100.0 * np.array(values).T
+                color, style = PALETTE[k % len(PALETTE)], ("-", "--")[k // len(PALETTE)]
+                ax.plot(x, value, style, marker="o", ms=4, color=color, label=name)
+                ax.fill_between(x, low, high, color=color, alpha=0.12, lw=0)
+            if mark:
+                ax.axvline(mark[0], color=BLACK, ls=":", lw=1)
+                ax.text(
+                    mark[0], 50, f" {mark[1]}", rotation=90, va="center", ha="right", fontsize=8
+                )
+            ax.set(xscale="log", xlabel=xlabel, ylabel="success [%]", title=title, ylim=(-4, 104))
+        np.atleast_1d(axes)[0].legend(loc="center left", fontsize="small")
+    return figure
+
+
+def distance_figure(curves: Mapping[str, np.ndarray], xlabel: str) -> Any:
+    """Distances [m] over the samples of a motion, drawn in millimetres; contact is shaded."""
+    with house_style():
+        figure, ax = plt.subplots(figsize=(8, 3.8))
+        for color, (name, values) in zip(PALETTE, curves.items(), strict=False):
+            ax.plot(np.linspace(0, 1, len(values)), 1e3 * values, color=color, label=name)
+        low = min(0.0, 1e3 * min(values.min() for values in curves.values()))
+        ax.axhspan(1.1 * low - 5, 0, color="0.85", zorder=0)
+        ax.set(xlabel=xlabel, ylabel="distance [mm]", xlim=(0, 1), ylim=(1.1 * low - 5, None))
+        ax.legend()
+    return figure
+
+
+def bar_figure(
+    groups: Mapping[str, Mapping[str, float]], ylabel: str, mark: tuple[float, str]
+) -> Any:
+    """Grouped bars: one cluster per name, one bar per group, in percent; ``mark`` is a level."""
+    names = list(next(iter(groups.values())))
+    width = 0.8 / len(groups)
+    with house_style():
+        figure, ax = plt.subplots(figsize=(9, 3.8))
+        for k, (group, values) in enumerate(groups.items()):
+            places = np.arange(len(names)) + (k - 0.5 * (len(groups) - 1)) * width
+            heights = [100.0 * values[name] for name in names]
+            ax.bar(places, heights, width, color=PALETTE[k], label=group)
+        ax.axhline(mark[0], color=BLACK, ls="--", lw=1, label=mark[1])
+        ax.set(xticks=range(len(names)), xticklabels=names, ylabel=ylabel, xlabel="method")
+        ax.set_ylim(0, 104)
+        ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure

@@ -1,0 +1,154 @@
+"""From arms, a workpiece of two pipes and tools to the cell whose placement is sought."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arms import Arm
+from ..errors import InputError, UnknownNameError
+from .cell import WELDER, Cell
+from .posture import flat_rotations
+from .seam import Seam, saddle_seam
+from .tooling import Torch, grasp_pose, torch_axes, torch_flanges, with_tool
+
+BASE_READINGS = ("inverted", "literal")
+
+
+@dataclass(frozen=True)
+class Workpiece:
+    """Main pipe along x, branch along z from its middle, lengths in metres."""
+
+    radius_main: float
+    radius_branch: float
+    length: float
+    branch_length: float
+    seam_points: int
+
+    def __post_init__(self) -> None:
+        for name in ("length", "branch_length"):
+            if not getattr(self, name) > 0:
+                raise InputError("workpiece", name, getattr(self, name), "a positive length [m]")
+
+    @property
+    def seam(self) -> Seam:
+        """Where the pipes meet."""
+        return saddle_seam(self.radius_main, self.radius_branch, self.seam_points)
+
+    @property
+    def cores(self) -> np.ndarray:
+        """Cores (2, 2, 3) of the capsules inside both pipes [m]; the caps end with the pipe."""
+        half = max(0.5 * self.length - self.radius_main, 0.0)
+        top = self.radius_main + self.branch_length - self.radius_branch
+        return np.array([[[-half, 0, 0], [half, 0, 0]], [[0, 0, 0], [0, 0, top]]])
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Their radii (2,) [m]."""
+        return np.array([self.radius_main, self.radius_branch])
+
+
+@dataclass(frozen=True)
+class Tools:
+    """How the carriers grip and the welder reaches; names as in :mod:`.tooling`."""
+
+    grasp: str
+    gripper_length: float
+    gripper_radius: float
+    torch: Torch
+    torch_axis: str
+
+    def __post_init__(self) -> None:
+        if not self.gripper_length > 0:
+            raise InputError(
+                "tools", "gripper_length", self.gripper_length, "a positive length [m]"
+            )
+
+
+def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
+    """Poses of the bases in the world from the matrices M that a document gives them.
+
+    The product ^B_c T = ^B_w T ^w_c T needs ^B_w T: M^-1 if M is the pose of the base in the world
+    (``inverted``), M if it maps world to base coordinates (``literal``); the pose is the inverse.
+
+    Parameters
+    ----------
+    matrices : ndarray (3, 4, 4)
+
+    Raises
+    ------
+    UnknownNameError
+        No such reading.
+    """
+    if reading not in BASE_READINGS:
+        expected = f"one of {', '.join(BASE_READINGS)}"
+        raise UnknownNameError("base_poses", "reading", reading, expected)
+    return matrices if reading == "inverted" else np.linalg.inv(matrices)
+
+
+def assemble(
+    arms: Sequence[Arm],
+    bases: np.ndarray,
+    workpiece: Workpiece,
+    posture: str,
+    tools: Tools,
+    *,
+    floor: float | None,
+    threshold: float,
+) -> Cell:
+    """The cell of two carriers and a welder.
+
+    Each carrier holds the end of the main pipe on its own side; the workpiece turns about its
+    origin so that the current seam point is flat, and the tip of the torch stays on that point.
+    Reference points of the velocity ellipsoids are the workpiece origin for the carriers, which the
+    rigid grasp makes common to both, and the tip of the torch for the welder.
+
+    Parameters
+    ----------
+    arms : three arms
+        Two carriers, then the welder.
+    bases : ndarray (3, 4, 4)
+        Poses of their bases in the world [m].
+    posture : str
+        A key of :data:`.posture.POSTURES`.
+    floor : float or None
+        Height of the floor [m].
+    threshold : float
+        Manipulability [m^3] at or below which a configuration counts as singular.
+    """
+    seam = workpiece.seam
+    rotations = flat_rotations(seam, posture)
+    torch = tools.torch
+    towards = bases[WELDER, :2, 3]
+    tips = np.einsum("nij,nj->ni", rotations, seam.points)
+    bisector = np.einsum("nij,nj->ni", rotations, seam.bisector)
+    turned = np.zeros((workpiece.seam_points, 4, 4))
+    turned[:, :3, :3], turned[:, 3, 3] = rotations, 1.0
+    grasps = [
+        grasp_pose(
+            tools.grasp,
+            tuple(base[:2, 3]),
+            0.5 * workpiece.length,
+            workpiece.radius_main,
+            tools.gripper_length,
+        )
+        for base in bases[:WELDER]
+    ]
+    axes = torch_axes(tools.torch_axis, bisector, towards)
+    flanges = [*(turned @ grasp for grasp in grasps), torch_flanges(tips, axes, towards, torch)]
+    gripper = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, tools.gripper_length]]])
+    carriers = [with_tool(arm, gripper, tools.gripper_radius) for arm in arms[:WELDER]]
+    return Cell(
+        arms=(*carriers, with_tool(arms[WELDER], torch.cores, torch.radius)),
+        bases=bases,
+        rotations=rotations,
+        flanges=np.stack(flanges),
+        references=np.stack([np.zeros_like(tips), np.zeros_like(tips), tips]),
+        seam=seam.points,
+        pipe_cores=workpiece.cores,
+        pipe_radii=workpiece.radii,
+        floor=floor,
+        threshold=threshold,
+    )

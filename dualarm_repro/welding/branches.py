@@ -1,0 +1,131 @@
+"""One branch of the inverse kinematics along a whole path of the flange, for many placements."""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+
+import numpy as np
+from numba import njit
+
+from ..arms.wrist_ik import BRANCHES, inverse_kinematics
+from .manipulability import manipulabilities
+
+_TURN = 2.0 * math.pi
+_PROBES = 6  # poses looked at first, to drop placements out of reach early
+
+
+class Status(IntEnum):
+    """Why a placement is not feasible; in the order in which the constraints are tested."""
+
+    FEASIBLE = 0
+    OUT_OF_REACH = 1
+    JOINT_LIMITS = 2
+    SINGULAR = 3
+    COLLISION = 4
+
+
+@njit(cache=True, error_model="numpy")
+def follow(geometry, base, flanges, centres, lower, upper, threshold):
+    """Joint paths that carry the flange along its poses, for every placement of the path.
+
+    Branches of the inverse kinematics meet only in singularities, so a path that avoids them stays
+    on one branch. Each of the eight is continued along all poses without limits, its angles are
+    unwrapped and each joint's path is shifted by one number of full turns into the limits. Of the
+    branches that pass, the one with the largest mean manipulability is taken (of equal ones the
+    first).
+
+    Parameters
+    ----------
+    geometry : WristGeometry
+    base : (4, 4)
+        Pose of the base in the world.
+    flanges : (N, 4, 4)
+        Poses of the flange in the world for the placement 0 [m].
+    centres : (P, 3)
+        Displacements of the whole path [m].
+    lower, upper : (6,)
+        [rad]; infinite: no limits.
+    threshold : float
+        Manipulability [m^3] at or below which a configuration counts as singular.
+
+    Returns
+    -------
+    q (P, N, 6), w (P, N), branch (P,), status (P,)
+        NaN and -1 where no branch passes; the status is then that of the branch that came furthest.
+    """
+    count, poses = len(centres), len(flanges)
+    q, w = np.full((count, poses, 6), np.nan), np.full((count, poses), np.nan)
+    branch, status = np.full(count, -1), np.zeros(count, dtype=np.int64)
+    free, middle = np.full(6, np.inf), np.zeros(6)
+    for j in range(6):
+        if np.isfinite(lower[j]) and np.isfinite(upper[j]):
+            middle[j] = 0.5 * (lower[j] + upper[j])
+    path, back = np.empty((poses, 6)), np.ascontiguousarray(base[:3, :3].T)
+    local = np.empty((poses, 4, 4))
+    origin = np.empty((poses, 3))
+    for n in range(poses):
+        local[n] = flanges[n]
+        local[n, :3, :3] = back @ np.ascontiguousarray(flanges[n, :3, :3])
+        origin[n] = back @ (flanges[n, :3, 3] - base[:3, 3])
+    stride = max(1, poses // _PROBES)
+    for p in range(count):
+        local[:, :3, 3] = origin + back @ centres[p]
+        probes = inverse_kinematics(geometry, local[::stride], middle, -free, free)
+        if not _any_branch(probes):
+            status[p] = 1
+            continue
+        found = inverse_kinematics(geometry, local, middle, -free, free)
+        best, furthest = -1.0, 1
+        for b in range(BRANCHES):
+            path[:] = found[:, b]
+            if np.isnan(path).any():
+                continue
+            if not _within(path, lower, upper, middle):
+                furthest = max(furthest, 2)
+                continue
+            measures = manipulabilities(geometry, path)
+            if measures.min() <= threshold:
+                furthest = max(furthest, 3)
+                continue
+            furthest = 4
+            # Wrist flips have equal measures up to rounding: the first keeps its place.
+            if measures.mean() > best * (1.0 + 1e-9):
+                best = measures.mean()
+                q[p], w[p], branch[p] = path, measures, b
+        status[p] = 0 if best >= 0.0 else furthest
+    return q, w, branch, status
+
+
+@njit(cache=True, error_model="numpy")
+def _any_branch(found):
+    """Whether some branch exists at every pose."""
+    for b in range(BRANCHES):
+        if not np.isnan(found[:, b, 0]).any():
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _within(path, lower, upper, middle):
+    """Unwrap a path in place, then shift every joint by full turns into its limits, if possible."""
+    for j in range(6):
+        smallest, largest = path[0, j], path[0, j]
+        for n in range(1, len(path)):
+            path[n, j] += _TURN * np.round((path[n - 1, j] - path[n, j]) / _TURN)
+            smallest, largest = min(smallest, path[n, j]), max(largest, path[n, j])
+        shift = _TURN * np.round((middle[j] - 0.5 * (smallest + largest)) / _TURN)
+        if smallest + shift < lower[j] or largest + shift > upper[j]:
+            return False
+        path[:, j] += shift
+    return True
+
+
+def unwrapped_reference(
+    path: np.ndarray, lower: np.ndarray, upper: np.ndarray
+) -> np.ndarray | None:
+    """Readable twin of the unwrapping and shifting: the path within limits, or None."""
+    path = np.unwrap(path, axis=0)
+    centre = 0.5 * (path.min(axis=0) + path.max(axis=0))
+    path = path + _TURN * np.round((0.5 * (lower + upper) - centre) / _TURN)
+    return path if ((path >= lower) & (path <= upper)).all() else None

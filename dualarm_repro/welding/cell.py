@@ -1,0 +1,117 @@
+"""A welding cell: two carriers that hold a workpiece, a welder that follows its seam."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..arms import Arm
+from ..arms.wrist_geometry import WristGeometry, wrist_geometry
+from ..errors import InputError
+
+ROBOTS = ("carrier 1", "carrier 2", "welder")
+WELDER = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """Everything about the job except where it takes place.
+
+    All poses of the job are given in world axes with the workpiece origin C at zero; a placement
+    moves them to C.
+
+    Attributes
+    ----------
+    arms : (Arm, Arm, Arm)
+        Two carriers and the welder, with the capsules of their tools.
+    bases : ndarray (3, 4, 4)
+        Poses of the bases in the world [m].
+    rotations : ndarray (N, 3, 3)
+        Rotation of the workpiece at each seam point.
+    flanges : ndarray (3, N, 4, 4)
+        Poses of the flanges.
+    references : ndarray (3, N, 3)
+        The points whose velocities the ellipsoids describe [m].
+    seam : ndarray (N, 3)
+        Seam points in the frame of the workpiece [m].
+    pipe_cores : ndarray (K, 2, 3)
+        Cores of the workpiece's capsules in its frame [m].
+    pipe_radii : ndarray (K,)
+        [m]
+    floor : float or None
+        Height of the floor [m].
+    threshold : float
+        Manipulability [m^3] at or below which a configuration counts as singular.
+    joint_limits : bool
+        Whether the limits of the arms count.
+
+    Raises
+    ------
+    InputError
+        Arrays that do not fit each other.
+    UnsupportedArmError
+        An arm without spherical wrist.
+    """
+
+    arms: tuple[Arm, Arm, Arm]
+    bases: np.ndarray
+    rotations: np.ndarray
+    flanges: np.ndarray
+    references: np.ndarray
+    seam: np.ndarray
+    pipe_cores: np.ndarray
+    pipe_radii: np.ndarray
+    floor: float | None
+    threshold: float
+    joint_limits: bool = True
+    geometries: tuple[WristGeometry, ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        count = len(self.rotations)
+        if count < 3:
+            raise InputError("cell", "seam points", count, "at least 3")
+        shapes = {
+            "bases": (3, 4, 4),
+            "rotations": (count, 3, 3),
+            "flanges": (3, count, 4, 4),
+            "references": (3, count, 3),
+            "seam": (count, 3),
+            "pipe_cores": (len(self.pipe_radii), 2, 3),
+        }
+        for name, shape in shapes.items():
+            if getattr(self, name).shape != shape:
+                raise InputError("cell", f"shape of {name}", getattr(self, name).shape, str(shape))
+        found = tuple(wrist_geometry(arm.name, arm.chain) for arm in self.arms)
+        object.__setattr__(self, "geometries", found)
+
+    @property
+    def count(self) -> int:
+        """Number of seam points N."""
+        return len(self.rotations)
+
+    def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper joint limits of a robot (6,) [rad]."""
+        if self.joint_limits:
+            return self.arms[robot].lower, self.arms[robot].upper
+        return np.full(6, -np.inf), np.full(6, np.inf)
+
+    def unlimited(self) -> Cell:
+        """The same cell without joint limits and without a threshold of singularity."""
+        return replace(self, joint_limits=False, threshold=0.0)
+
+    @cached_property
+    def lever_arms(self) -> np.ndarray:
+        """From each flange to its reference point, in world axes (3, N, 3) [m]."""
+        return self.references - self.flanges[..., :3, 3]
+
+    def seam_in_world(self, centre: np.ndarray) -> np.ndarray:
+        """p_w = C + R(theta) p_c at each seam point (N, 3) [m]."""
+        return centre + np.einsum("nij,nj->ni", self.rotations, self.seam)
+
+    def piece_pose(self, centre: np.ndarray) -> np.ndarray:
+        """^w_c T = [R(theta), C; 0, 1] at each seam point (N, 4, 4) [m]."""
+        poses = np.zeros((self.count, 4, 4))
+        poses[:, :3, :3], poses[:, :3, 3], poses[:, 3, 3] = self.rotations, centre, 1.0
+        return poses

@@ -1,0 +1,268 @@
+"""A genetic algorithm for a box of real variables, as a list of steps that is run and can be drawn.
+
+Defaults are those of a common toolbox: rank scaling, stochastic uniform selection, elitism,
+scattered crossover, Gaussian mutation that shrinks over the generations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import ceil
+from numbers import Integral
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial.distance import pdist
+
+from ..errors import InputError, UnknownNameError
+
+Fitness = Callable[[np.ndarray], np.ndarray]
+MUTATIONS = ("gaussian", "adaptive_feasible")
+INFEASIBLE = ("zero", "redraw")
+_REDRAWS = 10
+_SMALLEST_STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of a run.
+
+    Attributes
+    ----------
+    population : int
+        Individuals per generation, at least 4.
+    generations : int
+        Largest number of generations after the first.
+    crossover : float
+        Share of the children, elite apart, that come from crossover; the rest are mutants.
+    elite : float
+        Share of the best individuals that pass on unchanged, rounded up.
+    mutation : str
+        ``gaussian``: noise whose deviation falls linearly from the size of the box to 0;
+        ``adaptive_feasible``: one step in a random direction, kept inside the box, four times
+        longer after a success and four times shorter after a failure.
+    stall : float
+        The run ends when the mean fitness changed by less than this share per generation ...
+    stall_generations : int
+        ... on average over as many generations.
+    infeasible : str
+        ``zero``: fitness 0; ``redraw``: drawn anew from the box, at most ten times.
+    """
+
+    population: int = 50
+    generations: int = 100
+    crossover: float = 0.8
+    elite: float = 0.05
+    mutation: str = "gaussian"
+    stall: float = 1e-6
+    stall_generations: int = 10
+    infeasible: str = "zero"
+
+    def __post_init__(self) -> None:
+        for name, least in (("population", 4), ("generations", 1), ("stall_generations", 1)):
+            value = getattr(self, name)
+            if not isinstance(value, Integral) or value < least:
+                raise InputError(
+                    "genetic algorithm", name, value, f"an integer of at least {least}"
+                )
+        for name in ("crossover", "elite"):
+            if not 0.0 <= getattr(self, name) < 1.0:
+                raise InputError(
+                    "genetic algorithm", name, getattr(self, name), "a share in [0, 1)"
+                )
+        for name, choices in (("mutation", MUTATIONS), ("infeasible", INFEASIBLE)):
+            if getattr(self, name) not in choices:
+                expected = f"one of {', '.join(choices)}"
+                raise UnknownNameError("genetic algorithm", name, getattr(self, name), expected)
+
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """Numbers of elite, crossover children and mutants in a generation."""
+        elite = ceil(self.elite * self.population)
+        crossed = round(self.crossover * (self.population - elite))
+        return elite, crossed, self.population - elite - crossed
+
+
+class Generation(NamedTuple):
+    """What is recorded of a generation; fitness of the infeasible counts as 0 in the mean."""
+
+    best: float
+    mean: float
+    distance: float
+    feasible: float
+
+
+@dataclass
+class Search:
+    """State of a run."""
+
+    fitness: Fitness
+    low: np.ndarray
+    high: np.ndarray
+    settings: Settings
+    rng: np.random.Generator
+    individuals: np.ndarray = field(init=False)
+    values: np.ndarray = field(init=False)
+    parents: np.ndarray = field(init=False)
+    history: list[Generation] = field(init=False, default_factory=list)
+    evaluations: int = field(init=False, default=0)
+    known: int = field(init=False, default=0)
+    step: float = field(init=False, default=1.0)
+    reason: str | None = field(init=False, default=None)
+
+
+@dataclass(frozen=True, eq=False)
+class Evolution:
+    """Outcome of a run: best individual and its fitness, history, evaluations, why it ended."""
+
+    best: np.ndarray
+    fitness: float
+    history: tuple[Generation, ...]
+    evaluations: int
+    reason: str
+
+    @property
+    def found(self) -> bool:
+        """Whether any feasible individual was met."""
+        return self.fitness > 0
+
+
+def initialise(search: Search) -> None:
+    """Draw the first generation uniformly from the box"""
+    shape = (search.settings.population, len(search.low))
+    search.individuals = search.rng.uniform(search.low, search.high, shape)
+    search.values = np.zeros(search.settings.population)
+
+
+def evaluate(search: Search) -> None:
+    """Solve the job of every new individual; a violated constraint gives fitness 0"""
+    new = np.arange(search.settings.population) >= search.known
+    search.values[new] = search.fitness(search.individuals[new])
+    search.evaluations += int(new.sum())
+    if search.settings.infeasible == "redraw":
+        for _ in range(_REDRAWS):
+            bad = new & (search.values <= 0)
+            if not bad.any():
+                break
+            search.individuals[bad] = search.rng.uniform(
+                search.low, search.high, (int(bad.sum()), len(search.low))
+            )
+            search.values[bad] = search.fitness(search.individuals[bad])
+            search.evaluations += int(bad.sum())
+
+
+def rank(search: Search) -> None:
+    """Sort by fitness and record best, mean and mean distance"""
+    order = np.argsort(-search.values, kind="stable")
+    search.individuals, search.values = search.individuals[order], search.values[order]
+    record = Generation(
+        best=float(search.values[0]),
+        mean=float(search.values.mean()),
+        distance=float(pdist(search.individuals).mean()),
+        feasible=float((search.values > 0).mean()),
+    )
+    if search.history:
+        grown = record.best > search.history[-1].best
+        search.step = min(1.0, 4 * search.step) if grown else max(_SMALLEST_STEP, search.step / 4)
+    search.history.append(record)
+
+
+def finished(search: Search) -> bool:
+    """Generation limit reached, or mean fitness stalled?"""
+    settings, history = search.settings, search.history
+    if len(history) > settings.generations:
+        search.reason = "generations"
+    elif len(history) > settings.stall_generations:
+        means = np.array([g.mean for g in history[-1 - settings.stall_generations :]])
+        if means[-1] > 0 and np.abs(np.diff(means)).mean() <= settings.stall * means[-1]:
+            search.reason = "stall"
+    return search.reason is not None
+
+
+def select(search: Search) -> None:
+    """Draw parents in proportion to 1/sqrt(rank) with equally spaced pointers"""
+    _, crossed, mutants = search.settings.counts
+    count = 2 * crossed + mutants
+    share = 1.0 / np.sqrt(np.arange(1, search.settings.population + 1))
+    wheel = np.cumsum(share / share.sum())
+    pointers = (np.arange(count) + search.rng.random()) / count
+    chosen = np.searchsorted(wheel, np.minimum(pointers, wheel[-1]))
+    search.parents = search.individuals[search.rng.permutation(chosen)]
+
+
+def reproduce(search: Search) -> None:
+    """Keep the elite, cross pairs of parents coordinate by coordinate, mutate the rest"""
+    elite, crossed, _ = search.settings.counts
+    first, second, others = np.split(search.parents, [crossed, 2 * crossed])
+    mask = search.rng.random(first.shape) < 0.5
+    children = [search.individuals[:elite], np.where(mask, first, second), _mutated(search, others)]
+    search.individuals = np.concatenate(children)
+    search.values = np.concatenate([search.values[:elite], np.zeros(len(first) + len(others))])
+    search.known = elite
+
+
+#: The loop after the first generation; the decision ends it.
+LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, select, reproduce)
+
+
+def evolve(
+    fitness: Fitness, box: np.ndarray, settings: Settings, rng: np.random.Generator
+) -> Evolution:
+    """Maximise a fitness over a box.
+
+    Parameters
+    ----------
+    fitness : callable
+        (P, n) -> (P,), positive where feasible, 0 elsewhere.
+    box : ndarray (n, 2)
+        Lower and upper bounds.
+
+    Raises
+    ------
+    InputError
+        A bound that is not finite, or lower bounds not below upper ones.
+    """
+    low, high = checked_box(box).T
+    search = Search(fitness, low, high, settings, rng)
+    initialise(search)
+    while search.reason is None:
+        for act in LOOP:
+            if act(search):
+                break
+    return Evolution(
+        search.individuals[0].copy(),
+        float(search.values[0]),
+        tuple(search.history),
+        search.evaluations,
+        search.reason,
+    )
+
+
+def checked_box(box: np.ndarray) -> np.ndarray:
+    """The box (n, 2) as floats.
+
+    Raises
+    ------
+    InputError
+        See :func:`evolve`.
+    """
+    array = np.asarray(box, dtype=float)
+    good = array.ndim == 2 and array.shape[1:] == (2,) and np.isfinite(array).all()
+    if not good or (array[:, 0] >= array[:, 1]).any():
+        raise InputError(
+            "search", "box", array.tolist(), "finite rows [lower, upper], lower < upper"
+        )
+    return array
+
+
+def _mutated(search: Search, parents: np.ndarray) -> np.ndarray:
+    size = search.high - search.low
+    noise = search.rng.normal(size=parents.shape)
+    if search.settings.mutation == "gaussian":
+        left = 1.0 - len(search.history) / (search.settings.generations + 1)
+        return np.clip(parents + left * size * noise, search.low, search.high)
+    direction = size * search.step * noise / np.linalg.norm(noise, axis=1, keepdims=True)
+    room = np.where(direction > 0, search.high - parents, parents - search.low)
+    inside = np.min(room / np.maximum(np.abs(direction), 1e-300), axis=1, keepdims=True)
+    return np.clip(parents + np.minimum(1.0, inside) * direction, search.low, search.high)

@@ -1,0 +1,121 @@
+"""What is maximised: the measure of three robots over a seam, in every reading of its weights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import UnknownNameError
+from .cell import Cell
+from .ellipsoid import coupled_pair_volume, ellipsoid_volume, gram_matrices
+from .manipulability import PAIR_MEASURES, tight_measure, weighted_measure
+
+CHOICES = {
+    "weights": ("inverse_volume", "equal", "harmonic", "tight_only", "loose_only"),
+    "space": ("translational", "full"),
+    "carriers": ("mean", "sum", "coupled_pair"),
+    "pair": PAIR_MEASURES,
+    "aggregation": ("mean", "minimum"),
+    "unit": ("m", "mm"),
+}
+_PER_METRE = {"m": 1.0, "mm": 1000.0}
+_ROWS = {"translational": 3, "full": 6}
+
+
+class Measures(NamedTuple):
+    """Measures along the seam (..., N) of carriers, welder and system, and the two weights."""
+
+    tight: np.ndarray
+    loose: np.ndarray
+    system: np.ndarray
+    beta_tight: np.ndarray
+    beta_loose: np.ndarray
+
+
+@dataclass(frozen=True)
+class Objective:
+    """One reading of the measure; the fields are explained by :data:`CHOICES`.
+
+    weights: ``inverse_volume`` takes beta = 1 / V of the velocity ellipsoids, which is what
+    V_int / V comes to, since a common intersection cancels; ``harmonic`` beta = 1 / M; ``equal`` 1;
+    the last two keep one group only. space: translational velocity or full twist. carriers: how the
+    two ratios become one weight. pair: see :func:`.manipulability.tight_measure`. aggregation: of a
+    seam. unit: of length, in which the measures are added.
+
+    Raises
+    ------
+    UnknownNameError
+        A field with another value.
+    """
+
+    weights: str = "inverse_volume"
+    space: str = "translational"
+    carriers: str = "mean"
+    pair: str = "product"
+    aggregation: str = "mean"
+    unit: str = "m"
+
+    def __post_init__(self) -> None:
+        for name, choices in CHOICES.items():
+            value = getattr(self, name)
+            if value not in choices:
+                raise UnknownNameError("objective", name, value, f"one of {', '.join(choices)}")
+
+    @property
+    def uses_volumes(self) -> bool:
+        """Whether the weights are taken from ellipsoids."""
+        return self.weights == "inverse_volume"
+
+    def measures(self, w: np.ndarray, inverse: np.ndarray | None) -> Measures:
+        """Measures along the seam.
+
+        Parameters
+        ----------
+        w : ndarray (..., 3, N)
+            Manipulabilities of carrier 1, carrier 2 and welder [m^3].
+        inverse : ndarray (..., 2, N) or None
+            Inverse volumes of carriers and welder (:func:`inverse_volumes`), if they are used.
+        """
+        first, second, loose = np.moveaxis(w * _PER_METRE[self.unit] ** 3, -2, 0)
+        tight = tight_measure(first, second, self.pair)
+        match self.weights:
+            case "inverse_volume":
+                beta = inverse[..., 0, :], inverse[..., 1, :]
+            case "harmonic":
+                beta = 1.0 / tight, 1.0 / loose
+            case name:
+                beta = (
+                    np.full_like(tight, name != "loose_only"),
+                    np.full_like(loose, name != "tight_only"),
+                )
+        return Measures(tight, loose, weighted_measure(tight, loose, *beta), *beta)
+
+    def aggregate(self, values: np.ndarray) -> np.ndarray:
+        """Mean or minimum over the last axis."""
+        return values.mean(axis=-1) if self.aggregation == "mean" else values.min(axis=-1)
+
+
+def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.ndarray:
+    """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
+
+    The carriers' two inverse volumes are merged by ``carriers``: their mean, their sum, or the
+    inverse volume of the coupled pair.
+    """
+    count = len(q)
+    grams = []
+    for k, arm in enumerate(cell.arms):
+        lever = np.broadcast_to(cell.lever_arms[k], (count, cell.count, 3)).reshape(-1, 3)
+        path = np.ascontiguousarray(q[:, k].reshape(-1, arm.nq))
+        rotation = np.ascontiguousarray(cell.bases[k][:3, :3])
+        grams.append(gram_matrices(arm.chain, rotation, path, lever, _ROWS[space]))
+    first, second, welder = (1.0 / ellipsoid_volume(A) for A in grams)
+    match carriers:
+        case "mean":
+            tight = 0.5 * (first + second)
+        case "sum":
+            tight = first + second
+        case _:
+            tight = 1.0 / coupled_pair_volume(grams[0], grams[1])
+    return np.stack([tight, welder]).reshape(2, count, cell.count).transpose(1, 0, 2)

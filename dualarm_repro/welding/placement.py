@@ -1,0 +1,147 @@
+"""Placements of a job: joint paths, constraints and fitness for many positions of the workpiece."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+from .branches import Status, follow
+from .cell import Cell
+from .objective import Measures, Objective, inverse_volumes
+from .separation import Separation
+
+_BLOCK = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Jobs:
+    """The job at P placements.
+
+    Attributes
+    ----------
+    centres : ndarray (P, 3)
+        Positions C of the workpiece origin in the world [m].
+    status : ndarray (P,)
+        :class:`.branches.Status`.
+    robot : ndarray (P,)
+        First robot that cannot do it, -1 if all can.
+    branch : ndarray (P, 3)
+    q : ndarray (P, 3, N, 6)
+        Joint paths [rad], NaN where a robot has none.
+    w : ndarray (P, 3, N)
+        Manipulabilities [m^3].
+    separation : ndarray (P,)
+        Smallest distance of all pairs [m]; NaN where it was not needed.
+    """
+
+    centres: np.ndarray
+    status: np.ndarray
+    robot: np.ndarray
+    branch: np.ndarray
+    q: np.ndarray
+    w: np.ndarray
+    separation: np.ndarray
+
+    @property
+    def feasible(self) -> np.ndarray:
+        """Mask (P,)."""
+        return self.status == Status.FEASIBLE
+
+    def select(self, mask: np.ndarray) -> Jobs:
+        """The jobs where the mask (P,) is true."""
+        return Jobs(**{name: values[mask] for name, values in vars(self).items()})
+
+
+@dataclass(eq=False)
+class Placement:
+    """Fitness of positions C: the aggregated measure, 0 where a constraint is violated.
+
+    Attributes
+    ----------
+    evaluations : int
+        How many positions have been asked for.
+    """
+
+    cell: Cell
+    objective: Objective
+    separation: Separation = field(init=False)
+    evaluations: int = field(default=0, init=False)
+
+    def __post_init__(self) -> None:
+        self.separation = Separation(self.cell)
+
+    def __call__(self, centres: ArrayLike) -> np.ndarray:
+        """Fitness (P,) of positions (P, 3) [m]."""
+        centres = _positions(centres)
+        self.evaluations += len(centres)
+        parts = [self._score(self.jobs(block)) for block in _blocks(centres)]
+        return np.concatenate(parts) if parts else np.empty(0)
+
+    def jobs(self, centres: ArrayLike) -> Jobs:
+        """Joint paths and constraints at positions (P, 3) [m], cheapest tests first."""
+        return solve_jobs(self.cell, self.separation, _positions(centres))
+
+    def measures(self, jobs: Jobs) -> Measures:
+        """Measures along the seam (P, N) of jobs whose robots all have a path."""
+        objective, inverse = self.objective, None
+        if objective.uses_volumes:
+            inverse = inverse_volumes(self.cell, jobs.q, objective.space, objective.carriers)
+        return objective.measures(jobs.w, inverse)
+
+    def _score(self, jobs: Jobs) -> np.ndarray:
+        fitness = np.zeros(len(jobs.centres))
+        kept = jobs.feasible
+        if kept.any():
+            system = self.measures(jobs.select(kept)).system
+            fitness[kept] = self.objective.aggregate(system)
+        return fitness
+
+
+def solve_jobs(cell: Cell, separation: Separation, centres: np.ndarray) -> Jobs:
+    """Follow the seam with every robot in turn, then measure distances where all of them can.
+
+    Parameters
+    ----------
+    centres : ndarray (P, 3) [m]
+    """
+    count = len(centres)
+    jobs = Jobs(
+        centres=centres,
+        status=np.zeros(count, dtype=int),
+        robot=np.full(count, -1),
+        branch=np.full((count, 3), -1),
+        q=np.full((count, 3, cell.count, 6), np.nan),
+        w=np.full((count, 3, cell.count), np.nan),
+        separation=np.full(count, np.nan),
+    )
+    alive = np.arange(count)
+    for k in range(len(cell.arms)):
+        jobs.q[alive, k], jobs.w[alive, k], jobs.branch[alive, k], status = follow(
+            cell.geometries[k],
+            cell.bases[k],
+            np.ascontiguousarray(cell.flanges[k]),
+            np.ascontiguousarray(centres[alive]),
+            *cell.limits(k),
+            cell.threshold,
+        )
+        lost = status != Status.FEASIBLE
+        jobs.status[alive[lost]], jobs.robot[alive[lost]] = status[lost], k
+        alive = alive[~lost]
+    jobs.separation[alive] = separation.per_pair(jobs.q[alive], centres[alive]).min(axis=1)
+    jobs.status[alive[jobs.separation[alive] <= 0]] = Status.COLLISION
+    return jobs
+
+
+def _positions(centres: ArrayLike) -> np.ndarray:
+    array = np.asarray(centres, dtype=float)
+    if array.ndim != 2 or array.shape[1] != 3 or not np.isfinite(array).all():
+        raise InputError("placement", "centres", centres, "finite positions, shape (P, 3) [m]")
+    return array
+
+
+def _blocks(centres: np.ndarray) -> Iterator[np.ndarray]:
+    return (centres[k : k + _BLOCK] for k in range(0, len(centres), _BLOCK))

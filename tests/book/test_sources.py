@@ -1,0 +1,80 @@
+"""The sources of the book against the registry, without building it."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import offline_assets
+import prerun
+import pytest
+import yaml
+from pybtex.database import parse_file
+
+ROOT = Path(__file__).parents[2]
+BOOK = ROOT / "book"
+SHOWN = re.compile(r'^show\("([a-z]+\.[a-z0-9_]+)"', re.MULTILINE)
+
+
+def test_every_item_is_shown_once_on_the_page_it_declares(registry):
+    shown = {
+        (item_id, page)
+        for page in prerun.toc_pages(BOOK)
+        for item_id in SHOWN.findall((BOOK / f"{page}.md").read_text(encoding="utf-8"))
+    }
+    assert shown == {(item_id, checker.page) for item_id, checker in registry.checkers.items()}
+
+
+def test_every_page_is_in_the_table_of_contents():
+    pages = {str(path.relative_to(BOOK).with_suffix("")) for path in BOOK.rglob("*.md")}
+    assert pages == set(prerun.toc_pages(BOOK))
+
+
+def test_every_document_has_a_page_and_a_reference(registry):
+    references = parse_file(BOOK / "references.bib").entries
+    for name, paper in registry.papers.items():
+        assert f"{name}/index" in prerun.toc_pages(BOOK)
+        assert references[name].fields["title"] == paper.document.title
+        people = [f"{p.last_names[0]}, {' '.join(p.first_names)}"
+                  for p in references[name].persons.get("author", [])]  # fmt: skip
+        assert people == paper.document.authors
+
+
+def test_cells_are_short():
+    for page in prerun.notebooks(BOOK):
+        cells = re.findall(r"```\{code-cell\}.*?\n(.*?)```", page.read_text(encoding="utf-8"), re.S)
+        assert cells, page
+        for cell in cells:
+            assert len(cell.strip().splitlines()) <= 8, f"{page.name}: {cell}"
+
+
+def test_offline_assets_are_installed():
+    for name, source in offline_assets.assets().items():
+        assert source.is_file(), name
+    config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
+    assert config["sphinx"]["config"]["mathjax_path"] == offline_assets.MATHJAX
+
+
+def test_citation_file_agrees_with_package_and_documents(registry):
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    package = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert citation["version"] == package["version"]
+    assert citation["title"].startswith(package["name"])
+    assert citation["cff-version"] == "1.2.0"
+    assert "doi" not in citation
+    titles = {reference["title"] for reference in citation["references"]}
+    assert titles == {paper.document.title for paper in registry.papers.values()}
+
+
+def test_readme_counts_the_items(registry):
+    assert f"{len(registry.items)} items" in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE"])
+def test_named_files_exist(name):
+    """Files and make targets that the text refers to are there."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    targets = re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)
+    for target in re.findall(r"`make ([a-z]+)`", text):
+        assert target in targets, target
+    for path in re.findall(r"\]\(([^)#:]+)\)", text):
+        assert (ROOT / path).exists(), path

@@ -1,0 +1,42 @@
+"""Recorded problems and the contest of solvers in compiled loops."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.control.contest import contest
+from dualarm_repro.control.neural.network_settings import NetworkSettings
+from dualarm_repro.control.recorded import recorded_problems, stacked
+from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.simulate import simulate
+from dualarm_repro.control.solvers import solve
+from dualarm_repro.papers.patent.scenario import frozen
+
+
+@pytest.fixture(scope="module")
+def problems():
+    scenario, settings = frozen("crossing_xarm7"), Settings()
+    motion = simulate(scenario.system, scenario.circles, scenario.q0, settings, dt=5e-3)
+    made = recorded_problems(scenario.system, scenario.circles, motion, settings, 20)
+    for k, problem in enumerate(made[::10]):
+        np.testing.assert_allclose(solve(problem).x, motion.x[200 * k], atol=1e-9)
+    return made
+
+
+def test_stacking_keeps_every_row(problems):
+    *_, G, h, lower, _, rows = stacked(problems)
+    assert rows.max() > 0
+    for k, p in enumerate(problems):
+        np.testing.assert_array_equal(G[k, : rows[k]], p.G)
+        np.testing.assert_array_equal(h[k, : rows[k]], p.h)
+        np.testing.assert_array_equal(lower[k], p.lower)
+
+
+def test_contest_measures_errors_against_the_exact_method(problems):
+    entries = contest(problems, NetworkSettings(), (1, 4), (1, 50), repeats=3)
+    error = {(e.solver, e.effort): e.error for e in entries}
+    assert error["active_set", 1] == 0.0
+    assert 1e-6 < error["network", 4] < 0.02
+    assert error["primal_dual", 50] < error["primal_dual", 1]
+    for e in entries:
+        assert 0 < e.low <= e.microseconds <= e.high
+        assert e.violation >= 0

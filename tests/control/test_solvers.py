@@ -1,0 +1,126 @@
+"""Solvers agree pairwise, answers carry their certificate, and failures are loud."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dualarm_repro.control.certificate import residual
+from dualarm_repro.control.problem import NoSolution, Problem, Solution
+from dualarm_repro.control.relaxed import least_distance_with_slack
+from dualarm_repro.control.solvers import SOLVERS, solve
+from dualarm_repro.errors import InputError, UnknownNameError
+
+from .conftest import random_problem
+
+#: Agreement of the minimisers with an exact solver; interior-point methods end at about 1e-5.
+AGREES = {
+    "active_set": 1e-9,
+    "daqp": 1e-9,
+    "quadprog": 1e-9,
+    "proxqp": 1e-6,
+    "piqp": 2e-5,
+    "cvxpy": 1e-5,
+}
+
+
+@pytest.fixture(scope="module")
+def answers():
+    problems = [
+        random_problem(np.random.default_rng(seed), equalities, rows, 0.2)
+        for seed, (equalities, rows) in enumerate([(6, 12), (0, 12), (6, 0), (6, 24), (3, 5)])
+    ]
+    return [{name: solve(problem, name).x for name in SOLVERS} for problem in problems]
+
+
+@pytest.mark.parametrize(("a", "b"), list(combinations(SOLVERS, 2)))
+def test_solvers_agree_pairwise(answers, a, b):
+    for found in answers:
+        np.testing.assert_allclose(found[a], found[b], rtol=0, atol=max(AGREES[a], AGREES[b]))
+
+
+@given(st.integers(0, 10**6), st.sampled_from([0, 3, 6]), st.sampled_from([0, 4, 24]))
+def test_active_set_is_optimal_and_equals_daqp(seed, equalities, rows):
+    problem = random_problem(np.random.default_rng(seed), equalities, rows)
+    own = solve(problem)
+    assert own.residual < 1e-10
+    np.testing.assert_allclose(own.x, solve(problem, "daqp").x, rtol=0, atol=1e-8)
+
+
+@given(st.integers(0, 10**6))
+def test_compiled_residual_equals_the_readable_one(seed):
+    rng = np.random.default_rng(seed)
+    p = random_problem(rng)
+    parts = [rng.normal(size=size) for size in (14, 6, 12, 14)]
+    readable = Solution(p, *parts).residual
+    compiled = residual(*p.parts, *parts)
+    assert compiled == pytest.approx(readable, rel=1e-12)
+
+
+def test_dependent_equalities_are_accepted_and_contradictions_found():
+    p = random_problem(np.random.default_rng(0), 3, 4)
+    twice = Problem(p.target, np.vstack([p.A, p.A]), np.r_[p.b, p.b], p.G, p.h, p.lower, p.upper)
+    np.testing.assert_allclose(solve(twice).x, solve(p).x, atol=1e-9)
+    against = Problem(
+        p.target, np.vstack([p.A, p.A]), np.r_[p.b, p.b + 1], p.G, p.h, p.lower, p.upper
+    )
+    for solver in ("active_set", "daqp", "quadprog"):
+        with pytest.raises(NoSolution) as caught:
+            solve(against, solver)
+        assert caught.value.problem is against
+
+
+def test_infeasible_inequalities_are_found():
+    n = 3
+    G = np.array([[1.0, 0, 0], [-1.0, 0, 0]])
+    problem = Problem(np.zeros(n), np.zeros((0, n)), [], G, [-1.0, -1.0], -np.ones(n), np.ones(n))
+    for solver in SOLVERS:
+        with pytest.raises(NoSolution, match="problem"):
+            solve(problem, solver)
+
+
+def test_a_wrong_answer_is_not_certified():
+    problem = random_problem(np.random.default_rng(1))
+    right = solve(problem)
+    assert right.certified()
+    moved = Solution(problem, right.x + 1e-4, right.y, right.z, right.w)
+    assert not moved.certified()
+    assert not Solution(problem, np.full(14, np.nan), right.y, right.z, right.w).certified()
+
+
+def test_slack_is_zero_in_the_limit_and_satisfies_the_inequalities_always():
+    p = random_problem(np.random.default_rng(2), 6, 6, 0.0)
+    parts = p.parts
+    status, *found = least_distance_with_slack(*parts, 1e9)
+    assert status == 0
+    assert np.abs(found[-1]).max() < 1e-6
+    hard = Problem(p.target, p.A, p.b + 50.0, p.G, p.h, p.lower, p.upper)
+    with pytest.raises(NoSolution):
+        solve(hard)
+    status, *found = least_distance_with_slack(*parts[:2], hard.b, *parts[3:], 1e4)
+    solution = Solution(hard, *found)
+    assert solution.certified()
+    assert np.abs(solution.slack).max() > 1.0
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("target", [np.nan] * 14),
+        ("b", [np.inf] * 6),
+        ("G", np.zeros((12, 3))),
+        ("lower", [9.0] * 14),
+    ],
+)
+def test_bad_problems_are_refused(field, value):
+    p = random_problem(np.random.default_rng(3))
+    fields = {name: getattr(p, name) for name in p.__dataclass_fields__}
+    with pytest.raises(InputError, match=field):
+        Problem(**{**fields, field: value})
+
+
+def test_unknown_solver():
+    with pytest.raises(UnknownNameError, match="daqp"):
+        solve(random_problem(np.random.default_rng(4)), "simplex")

@@ -1,0 +1,102 @@
+"""The room of `patent`: every item is attempted, and the findings stand on their own."""
+
+import numpy as np
+import pytest
+
+import dualarm_repro.papers.patent  # noqa: F401  registers its items
+from dualarm_repro.control.neural.network_settings import NetworkSettings
+from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.simulate import pseudo_inverse
+from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
+from dualarm_repro.papers import load
+from dualarm_repro.papers.patent.derivation import matrix_equation, rest_point, sample_problem
+from dualarm_repro.papers.patent.flow import STEPS
+from dualarm_repro.papers.patent.random_tasks import TASKS
+from dualarm_repro.papers.patent.robots import URDFS, mesh_excess, redundant_arm
+from dualarm_repro.papers.patent.scenario import CONTROL_STEP, frozen, run, scenario_file
+from dualarm_repro.papers.patent.search import DEEP, KEPT, RADII, SEARCHES, TRACKED
+from dualarm_repro.papers.patent.tasks import arm_pair, draw_task
+
+load()
+ITEMS = [item_id for item_id in REGISTRY.items if item_id.startswith("patent.")]
+
+
+def test_every_item_has_a_checker():
+    assert [item_id for item_id in ITEMS if item_id not in REGISTRY.checkers] == []
+
+
+@pytest.mark.parametrize("robot", list(URDFS))
+def test_capsules_contain_the_meshes_of_the_moving_links(robot):
+    excess = mesh_excess(robot)
+    assert len(excess) >= 7
+    assert max(excess.values()) <= 1e-4
+
+
+def test_published_capsules_of_the_panda_miss_the_hand():
+    assert 0.005 < max(mesh_excess("panda", "published").values()) < 0.01
+
+
+def test_panda_has_twelve_capsules():
+    assert len(redundant_arm("panda").geometry.geometryObjects) == 12
+
+
+@pytest.mark.parametrize("name", ["crossing", "crossing_xarm7"])
+def test_frozen_crossings_meet_their_criteria_at_the_control_rate(name):
+    scenario, settings = frozen(name), Settings()
+    naive = run(scenario, pseudo_inverse(settings), CONTROL_STEP)
+    motion = run(scenario, settings, CONTROL_STEP)
+    assert naive.smallest_distance < DEEP
+    assert motion.completed
+    assert motion.smallest_distance >= settings.inner - KEPT
+    assert motion.largest_error <= TRACKED
+
+
+@pytest.mark.parametrize("name", list(SEARCHES))
+def test_frozen_files_hold_the_recorded_draw(name):
+    robot, *_ = SEARCHES[name]
+    file = scenario_file(name)
+    task = draw_task(arm_pair(robot, 0.6), np.random.default_rng(file.found.seed), RADII)
+    np.testing.assert_allclose(task.q0, [*file.left.q, *file.right.q], atol=1e-6)
+    np.testing.assert_allclose(task.normals, [file.left.normal, file.right.normal], atol=1e-6)
+    assert file.radius == pytest.approx(task.radius, abs=1e-6)
+
+
+def test_stored_study_is_current_and_large_enough():
+    table = TASKS.load()
+    counted = table[table["counts"].astype(bool)]
+    assert len(counted) >= 500
+    assert 20 < counted["collides"].sum() < len(counted)
+    assert TASKS.spot_check(6, seed=1) == []
+
+
+def test_symbolic_matrix_is_symmetric():
+    E, y, e = matrix_equation()
+    assert E.shape == (5, 5)
+    assert len(y) == len(e) == 5
+    assert E.T == E
+
+
+def test_rest_points_depend_on_the_penalty():
+    p = sample_problem()
+    soft, hard = (
+        rest_point(p, NetworkSettings(penalty="quadratic", factor=factor)) for factor in (1e2, 1e6)
+    )
+    assert np.abs(soft - hard).max() > 1e-3
+
+
+def test_steps_of_the_flow_chart_are_functions():
+    assert all(callable(step.code) for step in STEPS)
+
+
+@pytest.mark.parametrize(
+    ("item_id", "changes", "verdict"),
+    [
+        ("patent.fig02", {"inner_range": 0.0, "time_step": 0.002}, Verdict.UNDER_ASSUMPTION),
+        ("patent.fig02", {"base_distance": 1.0, "time_step": 0.01}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_limits", {"limit_form": "velocity"}, Verdict.NOT_REPRODUCED),
+        ("patent.eq_min_energy", {"energy_weight": "inertia"}, Verdict.NOT_REPRODUCED),
+        ("patent.eq_matrix_defs", {"state_matrix": "without_hessian"}, Verdict.NOT_REPRODUCED),
+    ],
+)
+def test_verdicts_follow_their_assumptions(item_id, changes, verdict):
+    assert evaluate(REGISTRY, item_id, changes).verdict == verdict

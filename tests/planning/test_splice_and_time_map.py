@@ -1,0 +1,64 @@
+"""Smoothing of the splice, and the time map that execution replays."""
+
+import numpy as np
+import pytest
+from two_spheres import GOAL, START, obstacles, placed_arm, settings
+
+from dualarm_repro.errors import InputError
+from dualarm_repro.planning.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.splice import roughness, smoothed, smoothed_directly
+from dualarm_repro.planning.time_map import along_path, replay, shares, time_map
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return plan_bidirectional_compiled(placed_arm(), START, GOAL, obstacles(), settings())
+
+
+@pytest.mark.parametrize("smoothing", [0.1, 1.0, 100.0])
+def test_spline_equals_the_direct_minimum_and_keeps_the_ends(plan, smoothing):
+    smooth = smoothed(plan.path, smoothing, 1e4)
+    assert smooth == pytest.approx(smoothed_directly(plan.path, smoothing, 1e4), abs=1e-9)
+    assert smooth[[0, -1]] == pytest.approx(plan.path[[0, -1]], abs=1e-5)
+
+
+def test_roughness_falls_as_smoothing_grows(plan):
+    values = [roughness(smoothed_directly(plan.path, mu, 1.0)) for mu in (0.0, 0.1, 1.0, 10.0)]
+    assert values == sorted(values, reverse=True)
+    straight = np.linspace(START, GOAL, 20)
+    assert roughness(straight) == pytest.approx(0.0, abs=1e-9)
+    x = np.arange(9.0)[:, None]
+    assert roughness(x**2) == pytest.approx(4.0 * 8.0, rel=0.2)
+
+
+def test_bad_smoothing(plan):
+    with pytest.raises(InputError, match="at least 5"):
+        smoothed(plan.path[:4], 1.0, 1.0)
+    with pytest.raises(InputError, match="not negative"):
+        smoothed(plan.path, -1.0, 1.0)
+
+
+def test_shares_rise_evenly_and_hold_the_middle():
+    assert shares(6, 4) == pytest.approx([0, 0.125, 0.25, 0.375, 0.5, 0.5, 0.5])
+    assert shares(2, 4) == pytest.approx([0, 0.125, 0.25])
+    with pytest.raises(InputError, match="spread"):
+        shares(3, 0)
+
+
+@pytest.mark.parametrize("spread", [5, 31, 60])
+def test_replay_moves_the_master_at_its_pace(plan, spread):
+    share = time_map(plan, spread)
+    assert len(share) == len(plan.path)
+    assert share[0] == 0.0
+    assert share[-1] == 1.0
+    assert (np.diff(share) >= 0).all()
+    master = np.linspace(GOAL, START, 21)
+    both = replay(master, plan.path, share, spread)
+    assert len(both[0]) == len(both[1]) >= len(share)
+    assert (both[0][0] == GOAL).all()
+    assert both[0][-1] == pytest.approx(START)
+    pace = np.abs(np.diff(both[0], axis=0)).max(axis=1)
+    assert pace.max() <= 0.5 / spread * np.abs(GOAL).max() * (1 + 1e-9)
+    kept = np.flatnonzero(np.r_[True, (np.diff(both[1], axis=0) != 0).any(axis=1)])
+    assert (both[1][kept] == plan.path).all()
+    assert along_path(master, np.array([0.5]))[0] == pytest.approx(0.5 * GOAL)

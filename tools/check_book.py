@@ -1,0 +1,198 @@
+"""Check a built book against the registry: pages, items, numbers, alt text, network, size.
+
+Every function returns one line per violation, so that an empty list means that all is well.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from html import unescape
+from pathlib import Path
+from posixpath import dirname, join, normpath
+from typing import Any
+
+import external_loads
+import pandas as pd
+from bs4 import BeautifulSoup
+from prerun import ROOT, notebooks, toc_pages
+
+Pages = Mapping[str, BeautifulSoup]
+MEGABYTE = 1_000_000
+LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 8 * MEGABYTE
+_DONE = "✅"
+_FAILURES = ("Traceback (most recent call last)", "not found")
+
+
+def read_pages(html: Path) -> dict[str, BeautifulSoup]:
+    """Every HTML page of a built book by its name without suffix."""
+    return {
+        str(path.relative_to(html).with_suffix("")): BeautifulSoup(
+            path.read_text(encoding="utf-8"), "html.parser"
+        )
+        for path in sorted(html.rglob("*.html"))
+    }
+
+
+def missing_pages(pages: Pages, expected: Iterable[str]) -> list[str]:
+    """Pages of the table of contents that were not built."""
+    return [f"{name}: listed in _toc.yml, not built" for name in expected if name not in pages]
+
+
+def misplaced_items(pages: Pages, home: Mapping[str, str]) -> list[str]:
+    """Items that do not stand exactly once, on the page their checker declares."""
+    found: dict[str, list[str]] = {}
+    for name, soup in pages.items():
+        for tag in soup.find_all(id=True):
+            found.setdefault(tag["id"], []).append(name)
+    return [
+        f"{item_id}: declared for {page}, found on {', '.join(found.get(item_id, ['no page']))}"
+        for item_id, page in home.items()
+        if found.get(item_id) != [page]
+    ]
+
+
+def wrong_cards(
+    pages: Pages, page: str, made: Mapping[str, Any], texts: Iterable[str]
+) -> list[str]:
+    """Cards whose verdict or numbers are not those of the record now computed.
+
+    Parameters
+    ----------
+    texts
+        Texts of the record that the card must show.
+    """
+    block = pages[page].find(id=made["id"]) if page in pages else None
+    if block is None:
+        return [f"{page}: no card of {made['id']}"]
+    lines = []
+    if block.select_one(f".verdict-{made['verdict']}") is None:
+        lines.append(f"{page}: the card of {made['id']} does not show {made['verdict']}")
+    shown = " ".join(block.get_text(" ").split())
+    for text in texts:
+        if " ".join(text.split()) not in shown:
+            lines.append(f"{page}: the card of {made['id']} does not show {text!r}")
+    return lines
+
+
+def wrong_counts(pages: Pages, page: str, counts: pd.DataFrame) -> list[str]:
+    """A table of verdict counts that differs from the registry."""
+    table = pages[page].find(id="verdict-counts") if page in pages else None
+    if table is None:
+        return [f"{page}: no table of verdict counts"]
+    rows = [[cell.get_text() for cell in row.find_all("td")] for row in table.find_all("tr")[1:]]
+    expected = [[str(value) for value in column] for _, column in counts.items()]
+    return [] if rows == expected else [f"{page}: shows the counts {rows}, not {expected}"]
+
+
+def broken_links(pages: Pages) -> list[str]:
+    """Links in the outputs of cells, which Sphinx does not check, that lead nowhere."""
+    ids = {name: {tag["id"] for tag in soup.find_all(id=True)} for name, soup in pages.items()}
+    lines = []
+    for name, soup in pages.items():
+        for link in soup.select(".cell_output a[href]"):
+            address, _, anchor = link["href"].partition("#")
+            target = normpath(join(dirname(name), address)).removesuffix(".html")
+            if target not in pages or (anchor and anchor not in ids[target]):
+                lines.append(f"{name}: the link {link['href']} leads nowhere")
+    return lines
+
+
+def images_without_alt(pages: Pages) -> list[str]:
+    """Images that say nothing to a reader who cannot see them."""
+    return [
+        f"{name}: an image without alternative text ({image.get('src', '')[:60]})"
+        for name, soup in pages.items()
+        for image in soup.find_all("img")
+        if not image.get("alt", "").strip()
+    ]
+
+
+def not_executed(pages: Pages, page: str, expected: Iterable[str]) -> list[str]:
+    """Notebooks that the table of executions on ``page`` does not report as run to the end."""
+    rows = pages[page].select("table tr") if page in pages else []
+    cells = [[cell.get_text().strip() for cell in row.find_all("td")] for row in rows]
+    done = {row[0] for row in cells if row and row[-1] == _DONE}
+    return [f"{name}: a notebook that was not executed" for name in expected if name not in done]
+
+
+def failed_outputs(pages: Pages) -> list[str]:
+    """Outputs that show a failure instead of a result, and messages of the builder."""
+    lines = [
+        f"{name}: an output shows {text!r}"
+        for name, soup in pages.items()
+        for output in soup.select(".cell_output")
+        for text in _FAILURES
+        if text in output.get_text()
+    ]
+    messages = {name: soup.select(".system-message, .problematic") for name, soup in pages.items()}
+    return lines + [f"{name}: {m.get_text()!r}" for name, found in messages.items() for m in found]
+
+
+def network_use(pages: Pages, html: Path) -> list[str]:
+    """Everything that reaches for another host."""
+    lines = [
+        f"{name}: loads or links {found}"
+        for name, soup in pages.items()
+        for found in external_loads.in_page(soup)
+    ]
+    return lines + list(external_loads.in_assets(html))
+
+
+def machine_paths(html: Path, folders: Iterable[Path]) -> list[str]:
+    """Pages that name a folder of the machine they were built on."""
+    lines = []
+    for path in sorted(html.rglob("*.html")):
+        text = unescape(path.read_text(encoding="utf-8"))
+        lines += [f"{path.relative_to(html)}: names {f}" for f in folders if str(f) in text]
+    return lines
+
+
+def over_budget(html: Path, book: int = LARGEST_BOOK, page: int = LARGEST_PAGE) -> list[str]:
+    """A book or a page with more bytes than a reader should have to load."""
+    sizes = {path: path.stat().st_size for path in html.rglob("*") if path.is_file()}
+    lines = [
+        f"{path.relative_to(html)}: {size / MEGABYTE:.1f} MB, allowed are {page / MEGABYTE:g}"
+        for path, size in sizes.items()
+        if path.suffix == ".html" and size > page
+    ]
+    total = sum(sizes.values())
+    if total > book:
+        lines.append(f"book: {total / MEGABYTE:.1f} MB, allowed are {book / MEGABYTE:g}")
+    return lines
+
+
+def violations(root: Path) -> list[str]:
+    """Everything that is wrong with the book built below ``root``."""
+    from dualarm_repro.ledger import record
+    from dualarm_repro.papers import load
+    from dualarm_repro.view.card import short
+    from dualarm_repro.view.overview import verdict_counts
+
+    registry, book, html = load(), root / "book", root / "_build" / "html"
+    pages = read_pages(html)
+    home = {item_id: checker.page for item_id, checker in registry.checkers.items()}
+    lines = missing_pages(pages, ["index", *toc_pages(book)]) + misplaced_items(pages, home)
+    for item_id, page in home.items():
+        made = record(registry, item_id)
+        lines += wrong_cards(pages, page, made, [short(c["obtained"]) for c in made["checks"]])
+    for page in ("intro", "ledger"):
+        lines += wrong_counts(pages, page, verdict_counts(registry))
+    expected = [str(p.relative_to(book).with_suffix("")) for p in notebooks(book)]
+    lines += not_executed(pages, "status", expected)
+    lines += broken_links(pages) + images_without_alt(pages) + failed_outputs(pages)
+    lines += network_use(pages, html)
+    return lines + machine_paths(html, (root, Path.home())) + over_budget(html)
+
+
+def main() -> int:
+    """Print every violation; 1 if there is any."""
+    found = violations(ROOT)
+    for line in found:
+        print(line, file=sys.stderr)
+    print(f"book: {len(found)} violations")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
