@@ -49,7 +49,10 @@ def measure() -> dict[str, float]:
     entries = load().papers["qiu"].assumptions.items()
     values = {key: entry.value for key, entry in entries}
     master, slave = master_arm(values), placed("slave")
-    goals, chosen = (master_posture(values), slave_posture(values)), settings(values, IMPROVED_VARIANT)
+    goals, chosen = (
+        (master_posture(values), slave_posture(values)),
+        settings(values, IMPROVED_VARIANT),
+    )
     rebuilt = settings(reconstructed(values, IMPROVED), IMPROVED_VARIANT)
 
     def alone(planner: Callable[..., object] = plan_bidirectional_compiled, how: object = chosen):

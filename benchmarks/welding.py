@@ -1,16 +1,19 @@
-"""Placement of a weld: fitness of one position, and a whole run of the genetic algorithm."""
+"""Placement of a weld: one position with and without constraints, and a whole genetic run."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+import coal
 import numpy as np
 import pinocchio as pin
 from timing import OURS, Row, timed
 
 from dualarm_repro import load_arm
+from dualarm_repro.arms.capsules import segment_capsule
 from dualarm_repro.welding import (
     Cell,
+    Jobs,
     Objective,
     Placement,
     Settings,
@@ -20,12 +23,15 @@ from dualarm_repro.welding import (
     assemble,
     evolve,
 )
+from dualarm_repro.welding.branches import follow
 
 ARM, SEAM_POINTS, POSITIONS = "er16", 72, 50
 BASES = ((1.0, -1.0, 0.05), (-1.0, -1.0, 0.05), (0.0, 1.0, 0.0))
 BOX = np.array([[-0.6, 0.6], [-0.9, 0.9], [0.1, 1.5]])
 GOOD = np.array([0.0, 0.1, 0.65])
-FITNESS, RUN = "fitness of one position of a weld", "genetic algorithm, 4 750 evaluations"
+PATHS = "joint paths and manipulabilities of a weld at one position"
+FITNESS = "the same with every constraint, and its fitness"
+RUN = "genetic algorithm, 4 750 evaluations"
 
 
 def measure() -> Iterator[Row]:
@@ -34,13 +40,21 @@ def measure() -> Iterator[Row]:
     near = GOOD + np.random.default_rng(0).uniform(-0.03, 0.03, (POSITIONS, 3))
     if not (placement(near) > 0).all():
         raise RuntimeError("the positions of the benchmark should be feasible")
-    jobs = placement.jobs(near[:1])
+    cell, jobs = placement.cell, placement.jobs(near[:1])
+    yield timed(PATHS, OURS, lambda: _paths(cell, near), POSITIONS)
+    yield timed(
+        PATHS,
+        "pinocchio per point: Newton, Jacobian, determinant",
+        lambda: _by_pinocchio(cell, near[0], jobs.q[0]),
+        1,
+    )
     yield timed(FITNESS, OURS, lambda: placement(near), POSITIONS)
     yield timed(
-        FITNESS, f"{OURS}, one at a time", lambda: [placement([c]) for c in near], POSITIONS
+        FITNESS,
+        "pinocchio per point, coal per pair",
+        lambda: (_by_pinocchio(cell, near[0], jobs.q[0]), _by_coal(placement, jobs)),
+        1,
     )
-    peer = "pinocchio per point: Newton, Jacobian, determinant; no limits, no collision"
-    yield timed(FITNESS, peer, lambda: _by_pinocchio(placement.cell, near[0], jobs.q[0]), 1)
     yield timed(RUN, OURS, lambda: evolve(placement, BOX, Settings(), np.random.default_rng(1)), 1)
 
 
@@ -51,6 +65,27 @@ def _cell() -> Cell:
     tools = Tools("axial", 0.15, 0.06, Torch(0.35, 0.0, 0.02, 0.10), "along_bisector")
     arms = [load_arm(ARM)] * 3
     return assemble(arms, bases, workpiece, "bisector", tools, floor=0.0, threshold=1e-3)
+
+
+def _paths(cell: Cell, centres: np.ndarray) -> None:
+    for k in range(len(cell.arms)):
+        flanges = cell.flanges[k]
+        follow(cell.geometries[k], cell.bases[k], flanges, centres, *cell.limits(k), 1e-3)
+
+
+def _by_coal(placement: Placement, jobs: Jobs) -> float:
+    """Smallest distance of the watched pairs, from cores that are already placed."""
+    separation, smallest = placement.separation, np.inf
+    request, result = coal.DistanceRequest(), coal.DistanceResult()
+    for cores in separation.cores(jobs.q, jobs.centres):
+        bodies = [
+            segment_capsule(*core, r) for core, r in zip(cores, separation.radii, strict=True)
+        ]
+        placed = [(shape, coal.Transform3s(p.rotation, p.translation)) for p, shape in bodies]
+        for i, j in separation.pairs:
+            result.clear()
+            smallest = min(smallest, coal.distance(*placed[i], *placed[j], request, result))
+    return smallest
 
 
 def _by_pinocchio(cell: Cell, centre: np.ndarray, start: np.ndarray) -> np.ndarray:

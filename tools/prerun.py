@@ -10,11 +10,16 @@ import logging
 import os
 import re
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import yaml
 from jupyter_cache import get_cache
 from jupyter_cache.executors import load_executor
+
+from dualarm_repro.ledger import record
+from dualarm_repro.papers import load
 
 ROOT = Path(__file__).resolve().parents[1]
 READER = {"name": "myst_nb_md", "type": "plugin"}
@@ -58,6 +63,24 @@ def isolate_kernels(folder: Path) -> None:
     os.environ["IPYTHONDIR"] = str(folder)
 
 
+def warm_records() -> None:
+    """Compute the record of every item once, the items of a page together, pages in parallel.
+
+    Several pages show all records; without this each kernel that starts early computes all of them.
+    """
+    pages: dict[str, list[str]] = {}
+    for item_id, checker in load().checkers.items():
+        pages.setdefault(checker.page, []).append(item_id)
+    with ProcessPoolExecutor() as pool:
+        list(pool.map(_compute_records, pages.values()))
+
+
+def _compute_records(item_ids: list[str]) -> None:
+    for item_id in item_ids:
+        with suppress(Exception):  # the page that shows the item will report it
+            record(load(), item_id)
+
+
 def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
     """Execute what the cache does not hold.
 
@@ -87,7 +110,12 @@ def main() -> int:
     config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
     build = ROOT / "_build"
     isolate_kernels(build / ".ipython")
-    failed = prerun(ROOT / "book", build / ".jupyter_cache", config["execute"]["timeout"])
+    book = ROOT / "book"
+    if missing := [page for page in toc_pages(book) if not (book / f"{page}.md").is_file()]:
+        print(f"in _toc.yml, but no such file: {', '.join(missing)}", file=sys.stderr)
+        return 1
+    warm_records()
+    failed = prerun(book, build / ".jupyter_cache", config["execute"]["timeout"])
     for page, traceback in failed.items():
         print(f"{page} failed:\n{traceback}", file=sys.stderr)
     if failed:

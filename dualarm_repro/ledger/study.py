@@ -130,8 +130,9 @@ class Study:
         try:
             return json.loads(self.meta_path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
             expected = f"a stored study (`dualarm study {self.name}` computes it)"
-            raise DataFileError(self.meta_path, "file", str(error), expected) from None
+            raise DataFileError(self.meta_path, "file", reason, expected) from None
 
     def status(self) -> str:
         """``up to date``, ``stale`` or ``missing``."""

@@ -46,16 +46,14 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
 
     The circle at the flange lies normal to the last axis.
     """
-    frames = link_frames(placed.arm.chain, base_of(placed), q)
-    tip = frames[:, -1, :, :3] @ placed.arm.chain.translation[-1] + frames[:, -1, :, 3]
-    origins = np.concatenate([frames[:, 1:, :, 3], tip[:, np.newaxis]], axis=1)
-    number = np.array(circles.frames)
-    axis_of = np.minimum(number, placed.arm.nq)
-    rows = []
-    for pose, origin in zip(frames, origins, strict=True):
-        axes = pose[axis_of, :, 0 if circles.containing_axis else 2]
-        rows.append(circle_points(origin[number - 1], axes, circles.radii, circles.count))
-    return np.array(rows)
+    arm, number = placed.arm, np.array(circles.frames)
+    carrier = np.minimum(number, arm.nq)
+    at_flange = number[:, np.newaxis] > arm.nq
+    centres = np.where(at_flange, arm.chain.translation[-1], 0.0)
+    axes = np.eye(3)[[0 if circles.containing_axis else 2] * len(number)]
+    local = circle_points(centres, axes, circles.radii, circles.count)
+    frames = link_frames(arm.chain, base_of(placed), q)[:, np.repeat(carrier, circles.count)]
+    return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
 
 
 def hull_track(points: np.ndarray) -> HullTrack:

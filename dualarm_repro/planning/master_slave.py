@@ -81,10 +81,7 @@ class CoordinatedPlan:
 
     def tcp_distance(self, first: str, second: str) -> np.ndarray:
         """Distance of two flanges over the index [m]."""
-        points = [
-            end_effector(self.plans[name].placed, self._path(name).at(self.index))
-            for name in (first, second)
-        ]
+        points = [end_effector(*self._motion(name)) for name in (first, second)]
         return np.linalg.norm(points[0] - points[1], axis=1)
 
     def point_distance(
@@ -92,10 +89,8 @@ class CoordinatedPlan:
     ) -> np.ndarray:
         """Smallest distance of the control points of two arms over the index [m]."""
         ends = []
-        for name in (first, second):
-            placed = self.plans[name].placed
-            points = control_points(placed.arm, choice)
-            ends.append(ends_of(placed, points, self._path(name).at(self.index))[:, :, 0])
+        for placed, q in map(self._motion, (first, second)):
+            ends.append(ends_of(placed, control_points(placed.arm, choice), q)[:, :, 0])
         gaps = ends[0][:, :, np.newaxis] - ends[1][:, np.newaxis]
         return np.linalg.norm(gaps, axis=-1).min(axis=(1, 2))
 
@@ -103,12 +98,11 @@ class CoordinatedPlan:
         """Distances of whole links, see :func:`.link_clearance.link_clearance`."""
         return link_clearance(self.scene, self.paths, max_step)
 
-    def _path(self, name: str) -> JointPath:
-        if name not in self.paths:
-            raise UnknownNameError(
-                "CoordinatedPlan", "arm", name, f"one of {', '.join(self.paths)}"
-            )
-        return self.paths[name]
+    def _motion(self, name: str) -> tuple[PlacedArm, np.ndarray]:
+        """An arm and its joints over the index."""
+        if name not in self.plans:
+            raise UnknownNameError("CoordinatedPlan", "arm", name, f"one of {', '.join(self.plans)}")
+        return self.plans[name].placed, self.paths[name].at(self.index)
 
 
 def plan_master_slave(

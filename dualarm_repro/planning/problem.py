@@ -133,20 +133,25 @@ def problem(
             raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
     points = control_points(arm, settings.control_points, settings.weights)
     made = Problem(placed, start, goal, obstacles, settings, points)
-    require_clear(made, start)
+    require_clear(made, start[np.newaxis])
     return made
 
 
-def require_clear(made: Problem, q: np.ndarray) -> None:
-    """Raise InputError where a control point is inside an obstacle at the first step."""
-    distance = made.repulsion.distances(q)
+def require_clear(made: Problem, starts: np.ndarray) -> None:
+    """Raise InputError where a control point touches an obstacle at the first step.
+
+    Parameters
+    ----------
+    starts : (N, nq)
+    """
+    distance = made.repulsion.distances(starts)
     if distance.size and distance.min() <= 0.0:
-        k, m = np.unravel_index(distance.argmin(), distance.shape)
+        n, k, m = np.unravel_index(distance.argmin(), distance.shape)
         expected = (
             f"{made.points.names[k]} outside {made.obstacles.names[m]}, "
-            f"not at a distance of {distance[k, m]:.4g} m"
+            f"not at a distance of {distance[n, k, m]:.4g} m"
         )
-        raise InputError(f"arm {made.placed.name}", "start", q.tolist(), expected)
+        raise InputError(f"arm {made.placed.name}", "start", starts[n].tolist(), expected)
 
 
 def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from ..datafiles import from_validation, read_yaml
 from ..errors import DataFileError, InputError
@@ -64,11 +64,18 @@ class PostureEntry(_Model):
         )
 
 
+# Told apart beforehand, so that an error speaks of what was meant.
+Configuration = Annotated[
+    Annotated[Joints, Tag("joints")] | Annotated[PostureEntry, Tag("posture")],
+    Discriminator(lambda value: "joints" if isinstance(value, list) else "posture"),
+]
+
+
 class TaskEntry(_Model):
     """Of one arm; what is left out is taken from the scene file."""
 
-    start: Joints | PostureEntry | None = None
-    goal: Joints | PostureEntry | None = None
+    start: Configuration | None = None
+    goal: Configuration | None = None
 
 
 class TaskFile(_Model):

@@ -28,17 +28,20 @@ def comparison_figure(
         Inner and outer range [m].
     """
     with house_style():
-        figure = plt.figure(figsize=(9.6, 6.4))
-        grid = figure.add_gridspec(2, len(postures), height_ratios=(1.35, 1.0))
+        figure = plt.figure(figsize=(9.6, 7.2))
+        grid = figure.add_gridspec(2, len(postures), height_ratios=(1.6, 1.0))
         for k, (name, (left, right, *paths)) in enumerate(postures.items()):
             ax = figure.add_subplot(grid[0, k], projection="3d")
             for points, color in ((left, MASTER), (right, SLAVE)):
-                ax.plot(*points.T, "o-", color=color, lw=4, ms=4)
+                ax.plot(*points.T, color=color, lw=11, alpha=0.35, solid_capstyle="round")
+                ax.plot(*points.T, "o-", color=color, lw=2, ms=4)
             for path, color in zip(paths, (MASTER, SLAVE), strict=True):
                 ax.plot(*path.T, color=color, lw=1)
             ax.set(title=name, xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
             ax.locator_params(nbins=4)
+            ax.view_init(elev=48, azim=-75)
             ax.set_aspect("equal")
+            ax.set_box_aspect(None, zoom=1.15)
         ax = figure.add_subplot(grid[1, :])
         for (name, (times, distances)), color in zip(curves.items(), (RED, BLUE), strict=True):
             ax.plot(times, 1e3 * distances, color=color, label=name)
@@ -52,7 +55,7 @@ def comparison_figure(
         ax.set(
             xlabel="time [s]",
             ylabel="smallest distance [mm]",
-            ylim=(1e3 * low - 15, 1e3 * high + 15),
+            ylim=(1e3 * low - 15, 1e3 * high + 45),
         )
         ax.legend(ncols=4, loc="upper center", fontsize=8.5)
     return figure
@@ -66,7 +69,7 @@ def damper_figure(
     bound: np.ndarray,
     ranges: tuple[float, float],
 ) -> Any:
-    """Nearest pair over time: distance between two ranges, approach below its bound, rows."""
+    """Pair with least room over time: distance between two ranges, approach below its bound, rows."""
     with house_style():
         figure, axes = plt.subplots(3, 1, figsize=(8.0, 6.4), sharex=True, height_ratios=(2, 2, 1))
         axes[0].plot(times, 1e3 * distance, color=BLUE)
@@ -77,7 +80,7 @@ def damper_figure(
         axes[0].set(ylabel="distance [mm]")
         axes[0].legend()
         axes[1].plot(times, bound, color=BLACK, ls="--", lw=1, label="bound")
-        axes[1].plot(times, approach, color=ORANGE, label="approach of the nearest pair")
+        axes[1].plot(times, approach, color=ORANGE, label="approach of the pair with least room")
         axes[1].set(ylabel="speed [m/s]")
         axes[1].legend()
         axes[2].step(times, rows, color=GREEN, where="post")

@@ -29,7 +29,7 @@ def beta_figure(volumes: np.ndarray, common: np.ndarray, share: np.ndarray) -> A
         for name, color, values in zip(ROBOTS, ROBOT_COLORS, volumes, strict=True):
             ax.plot(index, values, color=color, label=name)
         ax.plot(index, common, color=BLACK, ls="--", label="common to all")
-        ax.set(ylabel="volume [m³/s³]", ylim=(0, None))
+        ax.set(xlabel="seam point", ylabel="volume [m³/s³]", ylim=(0, None))
         ax.legend(ncols=4, loc="upper center", bbox_to_anchor=(0.5, 1.2))
         below.fill_between(index, 0, share, color=BLUE, alpha=0.5, lw=0, label="carriers")
         below.fill_between(index, share, 1, color=ORANGE, alpha=0.5, lw=0, label="welder")

@@ -18,7 +18,8 @@ def hull_figure(placed: PlacedArm, q: np.ndarray, hull: ConvexHull, rings: np.nd
         figure, axes = axes_3d(10, 5, columns=2)
         for ax, azimuth in zip(axes, (-60, 20), strict=True):
             faces = Poly3DCollection(hull.vertices[hull.faces], alpha=0.15, facecolor=BLUE)
-            faces.set_edgecolor((0, 0, 0, 0.12))
+            faces.set_edgecolor("0.8")
+            faces.set_linewidth(0.4)
             ax.add_collection3d(faces)
             closed = np.concatenate([rings, rings[:, :1]], axis=1)
             for k, ring in enumerate(closed):

@@ -69,7 +69,7 @@ def sensitivity_figure(table: pd.DataFrame, nominal: np.ndarray, printed: np.nda
                 ax.plot(values, [row] * len(values), "o", color=color, ms=4)
             ax.axvline(centre, color=BLACK, lw=1)
             ax.axvline(abs(printed[k]) if k == 0 else printed[k], color=RED, ls="--", lw=1)
-            ax.set(xlabel=("|x| [m]", "y [m]", "z [m]")[k])
+            ax.set(xlabel=("|x| [m]", "y [m]", "z [m]")[k], ylabel="assumption")
         axes[0].set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
         axes[0].invert_yaxis()
         axes[0].plot([], [], color=BLACK, label="declared assumptions")
@@ -112,7 +112,8 @@ def readings_figure(
             axes[2].barh(rows + shift, 100 * shares[column], 0.38, color=color, label=column)
         axes[2].set_yticks(rows, shares.index)
         axes[2].invert_yaxis()
-        axes[2].set(xlabel=f"optima within {radii[1]:g} m of the printed point [%]")
+        share = f"optima within {radii[1]:g} m of the printed point [%]"
+        axes[2].set(xlabel=share, ylabel="objective")
         figure.legend(
             *axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5, markerscale=2
         )

@@ -24,9 +24,8 @@ def measures_figure(curves: Mapping[str, tuple[np.ndarray, Measures]]) -> Any:
                 ax.plot(values, color=color, label=f"{name} [m³]")
             ax.plot(measures.tight, color=PURPLE, ls="--", label="carriers together [m⁶]")
             ax.plot(measures.system, color=BLACK, lw=2.5, label="system, (16)")
-            ax.set(title=title, xlabel="seam point", ylim=(0, None))
+            ax.set(title=title, xlabel="seam point", ylabel="manipulability", ylim=(0, None))
             ax.margins(x=0)
-        axes[0, 0].set_ylabel("manipulability")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
@@ -41,8 +40,7 @@ def joints_figure(cell: Cell, q: np.ndarray) -> Any:
                 angle = np.degrees(q[k, :, j])
                 label = f"q{j + 1} in [{lower[j]:.0f}, {upper[j]:.0f}]"
                 ax.plot(angle, label=label)
-            ax.set(title=name, xlabel="seam point")
+            ax.set(title=name, xlabel="seam point", ylabel="joint angle [deg]")
             ax.margins(x=0)
-        axes[0].set_ylabel("joint angle [deg]")
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=6)
     return figure

@@ -10,6 +10,8 @@ import numpy as np
 
 from .style import BLACK, ORANGE, PALETTE, house_style
 
+_LEAST_SPAN = 0.5  # of an axis of joint angles [deg]
+
 
 def coordinate_figure(
     runs: Mapping[str, np.ndarray],
@@ -43,6 +45,9 @@ def joint_figure(
                 ax.plot(np.rad2deg(path[:, j]), color=PALETTE[k], label=name, lw=1.6)
             for k, junction in enumerate(junctions):
                 ax.axvline(junction, color=PALETTE[k], ls=":", lw=1)
+            low, high = ax.get_ylim()
+            if high - low < _LEAST_SPAN:  # rounding is no motion
+                ax.set_ylim(-_LEAST_SPAN, _LEAST_SPAN)
             ax.set(ylabel=f"joint {j + 1} [deg]", xlabel=xlabel)
         _legend_below(figure, axes.flat[0])
     return figure

@@ -43,7 +43,7 @@ def best_individual_figure(best: np.ndarray, printed: np.ndarray) -> Any:
                 k + shift, best[:, k], "o", color=BLACK, ms=4, label="all runs" if not k else None
             )
         ax.set_xticks(position, ["x", "y", "z"])
-        ax.set(ylabel="best individual [m]")
+        ax.set(xlabel="coordinate", ylabel="best individual [m]")
         ax.legend()
     return figure
 
@@ -67,5 +67,6 @@ def optimisers_figure(table: pd.DataFrame, truth: float, budget: int) -> Any:
         ax.set(xscale="log", xlabel=f"gap to the ground truth after {budget} evaluations")
         ax.set_yticks(range(len(names)), names)
         ax.invert_yaxis()
-        right.set(xlabel="CPU time [s]", xlim=(0, None))
+        ax.set_ylabel("optimiser")
+        right.set(xlabel="CPU time [s]", ylabel="optimiser", xlim=(0, None))
     return figure

@@ -37,10 +37,18 @@ def tip_path_figure(panels: Sequence[TipPanel], spheres: Sequence[Sphere], **vie
             for marker, (name, point) in zip("x*PD", panel.marks.items(), strict=False):
                 points = np.atleast_2d(point)
                 ax.plot(*points.T, marker, color=BLACK, ms=8, ls="none", label=name)
+            _keep_wide(ax)
             ax.set_title(panel.title)
             ax.set_aspect("equal")
             ax.legend(loc="upper left", fontsize="small")
     return figure
+
+
+def _keep_wide(ax: Any, least: float = 0.4) -> None:
+    """No axis of a drawing in one plane collapses."""
+    for limits, widen in ((ax.get_xlim(), ax.set_xlim), (ax.get_ylim(), ax.set_ylim)):
+        middle, half = 0.5 * sum(limits), 0.5 * max(limits[1] - limits[0], least)
+        widen(middle - half, middle + half)
 
 
 def draw_sphere(ax: Any, sphere: Sphere) -> None:

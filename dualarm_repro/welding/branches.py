@@ -77,7 +77,11 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
             continue
         found = inverse_kinematics(geometry, local, middle, -free, free)
         best, furthest = -1.0, 1
+        passed = -1
         for b in range(BRANCHES):
+            # Branches 2k and 2k + 1 differ by a flip of the wrist and have equal measures.
+            if b == passed + 1 and b % 2 == 1:
+                continue
             path[:] = found[:, b]
             if np.isnan(path).any():
                 continue
@@ -88,9 +92,8 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
             if measures.min() <= threshold:
                 furthest = max(furthest, 3)
                 continue
-            furthest = 4
-            # Wrist flips have equal measures up to rounding: the first keeps its place.
-            if measures.mean() > best * (1.0 + 1e-9):
+            furthest, passed = 4, b
+            if measures.mean() > best:
                 best = measures.mean()
                 q[p], w[p], branch[p] = path, measures, b
         status[p] = 0 if best >= 0.0 else furthest

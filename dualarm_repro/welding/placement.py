@@ -131,7 +131,7 @@ def solve_jobs(cell: Cell, separation: Separation, centres: np.ndarray) -> Jobs:
         lost = status != Status.FEASIBLE
         jobs.status[alive[lost]], jobs.robot[alive[lost]] = status[lost], k
         alive = alive[~lost]
-    jobs.separation[alive] = separation.per_pair(jobs.q[alive], centres[alive]).min(axis=1)
+    jobs.separation[alive] = separation.smallest(jobs.q[alive], centres[alive])
     jobs.status[alive[jobs.separation[alive] <= 0]] = Status.COLLISION
     return jobs
 

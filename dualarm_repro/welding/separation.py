@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ import numpy as np
 from ..scene.pair_kernels import capsules_capsules, capsules_planes
 from ..scene.posing import link_frames, links_of, place_cores
 from .cell import ROBOTS, WELDER, Cell
+from .nearest import smallest_distances
 
 WORKPIECE, FLOOR = "workpiece", "floor"
 HELD = 0  # row of the pipe that the carriers hold
@@ -98,11 +100,22 @@ class Separation:
         ends[:, start:] = placed.reshape(-1, *cell.pipe_cores.shape)
         return ends
 
-    @property
+    @cached_property
     def radii(self) -> np.ndarray:
         """Radii of all parts (C,) [m]."""
         links = [links_of(arm).radius for arm in self.cell.arms]
         return np.concatenate([*links, self.cell.pipe_radii])
+
+    def smallest(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
+        """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
+        out, above = np.empty(len(centres)), self.floor_pairs[:, 0].copy()
+        height = self.cell.floor or 0.0
+        for block in _blocks(len(centres)):
+            ends = self.cores(q[block], centres[block])
+            out[block] = smallest_distances(
+                ends, self.radii, self.pairs, above, height, self.cell.count
+            )
+        return out
 
     def per_pair(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Smallest signed distance of every pair along the seam.
@@ -119,8 +132,7 @@ class Separation:
         """
         out = np.empty((len(centres), len(self.pairs) + len(self.floor_pairs)))
         plane = np.array([[0.0, 0.0, 1.0, self.cell.floor or 0.0]])
-        for first in range(0, len(centres), _BLOCK):
-            block = slice(first, first + _BLOCK)
+        for block in _blocks(len(centres)):
             ends = self.cores(q[block], centres[block])
             distance = np.empty((len(ends), out.shape[1]))
             between, above = np.split(distance, [len(self.pairs)], axis=1)
@@ -129,6 +141,10 @@ class Separation:
             shape = (-1, self.cell.count, out.shape[1])
             out[block] = distance.reshape(shape).min(axis=1)
         return out
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    return (slice(first, first + _BLOCK) for first in range(0, count, _BLOCK))
 
 
 def _parts(cell: Cell) -> Iterator[Part]:

@@ -1,5 +1,7 @@
 """Pre-execution: which pages are notebooks, what is cached, and that every failure is named."""
 
+from dataclasses import replace
+
 import prerun
 import pytest
 from jupyter_cache import get_cache
@@ -32,6 +34,15 @@ def book(tmp_path):
 def test_pages_in_reading_order(book):
     assert prerun.toc_pages(book) == ["intro", "good", "bad/page", "text"]
     assert [page.stem for page in prerun.notebooks(book)] == ["intro", "good", "page"]
+
+
+def test_records_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
+    chosen = {i: registry.checkers[i] for i in ("xue.eq02", "xue.tab01")}
+    broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
+    monkeypatch.setattr(registry, "checkers", {"xue.eq03": broken} | chosen)
+    monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
+    prerun.warm_records()
+    assert {path.stem for path in tmp_path.rglob("*.json")} == set(chosen)
 
 
 def test_all_failures_are_named_and_the_rest_is_cached(book, tmp_path, monkeypatch):

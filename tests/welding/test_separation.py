@@ -9,9 +9,10 @@ from dualarm_repro.arms.capsules import segment_capsule
 from dualarm_repro.scene.pair_kernels import capsules_capsules
 from dualarm_repro.scene.posing import links_of
 from dualarm_repro.welding import ROBOTS, Objective, Placement, Separation
+from dualarm_repro.welding.grid_search import grid_points
 from dualarm_repro.welding.separation import EXEMPTIONS, FLOOR, WORKPIECE
 
-from .cells import make_cell
+from .cells import BOX, make_cell
 
 CENTRE = np.array([[0.05, 0.1, 0.8]])
 
@@ -119,3 +120,14 @@ def test_no_floor():
 def test_tools_belong_to_the_arms():
     cell = make_cell(count=12, crank=0.5)
     assert [sum("tool" in n for n in links_of(arm).names) for arm in cell.arms] == [1, 1, 2]
+
+
+def test_smallest_is_the_smallest_pair():
+    """With and without leaving out the pairs that are far apart, in gaps and in penetration."""
+    placement = Placement(make_cell(count=12), Objective())
+    jobs = placement.jobs(grid_points(BOX, 0.3))
+    kept = ~np.isnan(jobs.separation)
+    every = placement.separation.per_pair(jobs.q[kept], jobs.centres[kept]).min(axis=1)
+    assert (every > 0).any()
+    assert (every < 0).any()
+    assert abs(jobs.separation[kept] - every).max() < 1e-14

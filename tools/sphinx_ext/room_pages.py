@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
 from pkgutil import walk_packages
 from typing import Any
@@ -10,6 +11,9 @@ from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
+
+_FIELD = "Alias for field number"
+_UP = re.compile(r"(:\w+:`~?)\.\.+")
 
 
 class Room(SphinxDirective):
@@ -29,13 +33,19 @@ class Room(SphinxDirective):
         return block.children
 
 
-def keep_bars(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
-    """Docstrings write |x| for a length; reStructuredText would look for a substitution."""
-    lines[:] = [line.replace("|", r"\|") for line in lines]
+def adapt(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Docstrings write |x| for a length and ``..room.name`` as an import does; not so Sphinx."""
+    lines[:] = [_UP.sub(r"\1.", line.replace("|", r"\|")) for line in lines]
+
+
+def skip(app: Sphinx, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
+    """Fields of a named tuple have only a number for a text; its docstring describes them."""
+    return True if (getattr(obj, "__doc__", None) or "").startswith(_FIELD) else None
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Entry point of Sphinx."""
     app.add_directive("room", Room)
-    app.connect("autodoc-process-docstring", keep_bars)
+    app.connect("autodoc-process-docstring", adapt)
+    app.connect("autodoc-skip-member", skip)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -77,8 +77,9 @@ def position_vectors(assumed: Assumed) -> Result:
     )
 
 
-@checks(
+@REGISTRY.checks(
     "pan.fig03",
+    page="pan/measure",
     rules=[
         Bounded(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
         NeedsPrinted(key="drawing", label="configuration and scale of the drawing"),

@@ -162,6 +162,7 @@ def printed_point(assumed: Assumed) -> Result:
             "printed_point_is": status_name(at_print),
             "readings_within_0.15": int((far > 0).to_numpy().sum()),
             "readings": far.size,
+            "feasible_sets": _feasible_sets(),
             "excluded": excluded,
             "shares": {name: row.to_dict() for name, row in table.iterrows()},
         },
@@ -285,6 +286,13 @@ def reading_table() -> pd.DataFrame:
             row[f"{reading} upper"] = float(interval.high)
         rows[name] = row
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("objective")
+
+
+def _feasible_sets() -> dict[str, float]:
+    """Share of the sampled sets in which some position is feasible, for each reading."""
+    table = CONSISTENCY.load()
+    some = table["feasible_share"] > 0
+    return {name: float(some[table["base_transform"] == name].mean()) for name in READINGS}
 
 
 def _clouds() -> list[tuple[str, np.ndarray]]:

@@ -9,9 +9,11 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
-from ...planning.time_map import shares, time_map
+from ...planning.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.splice import smoothed
+from ...planning.time_map import hull_tracks, replay, shares, time_map
 from ...scene import JointPath, distances
-from ...view.flow_chart import flow_chart
+from ...view.diagrams import flow_chart
 from ..wording import point
 from .execution import both_arms, dual_scene, executed
 from .readings import SLAVE as SLAVE_ASSUMPTIONS
@@ -22,17 +24,15 @@ SLAVE_MEETING = np.array([[0.158, 0.124, 0.150], [0.169, 0.112, 0.149]])
 _SHIFTS = (-6, -3, 3, 6)
 _NEAR = {"tolerance": 0.01, "reason": "two runs that agree to one centimetre"}
 _STAGES = (
-    "Goals and starts of both arms in joint space",
-    "Master: forward and backward search among the spheres",
-    "Halves met?",
-    "Join and smooth the master's path",
-    "Hull of joint circles at the master's poses, from both ends to the middle",
-    "Slave: forward and backward search among spheres and moving hull",
-    "Halves met?",
-    "Join and smooth the slave's path",
-    "Execute both arms by the time map of the search",
+    ("master", "search from both ends", plan_bidirectional_compiled),
+    ("master", "join and smooth", smoothed),
+    ("moving hull", "poses from both ends to the middle", shares),
+    ("moving hull", "circles at the joints, their hulls", hull_tracks),
+    ("slave", "search around spheres and hull", plan_bidirectional_compiled),
+    ("slave", "join and smooth", smoothed),
+    ("slave", "time map of the search", time_map),
+    ("slave", "execute both arms by it", replay),
 )
-_LOOPS = ((2, 1, "no: next search"), (6, 5, "no: next search"))
 
 
 def dual_readings(assumed: Assumed) -> dict[str, DualPlan]:
@@ -56,20 +56,25 @@ def dual_readings(assumed: Assumed) -> dict[str, DualPlan]:
 )
 def order_of_work(assumed: Assumed) -> Result:
     """The order of work that the code follows."""
-    master, slave = (
-        next(i for i, s in enumerate(_STAGES) if s.startswith(n)) for n in ("Master", "Slave")
-    )
+    parts = list(dict.fromkeys(part for part, _, _ in _STAGES))
+    rows = [
+        (part, text, f"{code.__module__.split('.')[-1]}.{code.__name__}")
+        for part, text, code in _STAGES
+    ]
     return Result(
-        obtained={"master_before_slave": master < slave, "stages": list(_STAGES)},
+        obtained={
+            "master_before_slave": parts.index("master") < parts.index("slave"),
+            "stages": [f"{part}: {text}" for part, text, _ in rows],
+        },
+        table=pd.DataFrame(rows, columns=["part", "step", "code"]),
         caption=(
-            f"Order of work in {len(_STAGES)} stages: the master among the spheres, its hull at "
-            "every "
-            "pose, the slave around it, both by one time map. The chart itself is lost."
+            f"Order of work in {len(rows)} stages with the function behind each: the master among "
+            "the spheres, its hull at every pose, the slave around it, both executed by one time "
+            "map. The chart of the document is lost."
         ),
-        alt="Flow chart: plan the master, join and smooth, build its moving hull, plan the slave, "
-        "execute "
-        "both; two loops back until the halves have met.",
-        figure=lambda: flow_chart(_STAGES, _LOOPS),
+        alt="Flow chart in three columns: plan the master, build its moving hull, plan the slave "
+        "and execute both arms.",
+        figure=lambda: flow_chart(rows),
     )
 
 

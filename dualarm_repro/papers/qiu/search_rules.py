@@ -193,7 +193,7 @@ def smoothing_sense(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "falling": bool((np.diff(values) < 0).all()),
-            "not_negative": mu >= 0.0,
+            "not_negative": bool(mu >= 0.0),
             "roughness": values,
         },
         table=pd.DataFrame({"mu": _MU, "roughness_rad2": values}),

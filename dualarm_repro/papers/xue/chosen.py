@@ -30,7 +30,7 @@ KEPT = tuple(
 
 
 class Chosen(Mapping[str, Any]):
-    """Values of assumptions by name, and further settings; nothing is read before it is asked for."""
+    """Values of assumptions by name, and further settings; all are read when asked for."""
 
     def __init__(self, names: tuple[str, ...], **further: Any) -> None:
         self._names, self._further = names, further

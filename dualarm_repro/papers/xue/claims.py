@@ -50,13 +50,15 @@ def stops_at_zero(assumed: Assumed) -> Result:
         )
     at_goal, at_trap, gradient = ends
     trap = "no run is trapped." if at_trap is None else (
-        f"a trapped run stands still at a potential of {at_trap:.2f}, where the gradient is {gradient:.0e}."
+        f"a trapped run stands still at a potential of {at_trap:.2f}, where the gradient is "
+        f"{gradient:.0e}."
     )  # fmt: skip
     return Result(
         obtained={"at_goal": at_goal, "at_trap": at_trap, "gradient": gradient},
         caption=(
-            f"At the slave's goal the total potential is {at_goal:.1e}; {trap} What ends a motion is a "
-            "vanishing gradient, as the document itself says of its local minima, not potential 0."
+            f"At the slave's goal the total potential is {at_goal:.1e}; {trap} What ends a motion "
+            "is a vanishing gradient, as the document itself says of its local minima, not "
+            "potential 0."
         ),
     )
 
@@ -116,10 +118,10 @@ def without_inverse_kinematics(assumed: Assumed) -> Result:
     return Result(
         obtained=found,
         caption=(
-            f"Inverse kinematics is called {found['improved_plan']} times in a run of (13)-(16) and "
-            f"{found['traditional_plan']} times in one of (9)-(12): the Jacobian carries the force to "
-            "the joints in both. It is the improved method that needs it, once for each of Start and "
-            "End, because (13) asks for goal angles where a position is given."
+            f"Inverse kinematics is called {found['improved_plan']} times in a run of (13)-(16) "
+            f"and {found['traditional_plan']} times in one of (9)-(12): the Jacobian carries the "
+            "force to the joints in both. It is the improved method that needs it, once for each "
+            "of Start and End, because (13) asks for goal angles where a position is given."
         ),
     )
 
@@ -174,8 +176,9 @@ def superior(assumed: Assumed) -> Result:
             f"Over {len(table)} random arrangements the improved method misses "
             f"{found['mean_missed']['improved']:.2f} of 10 runs on average, the traditional one "
             f"{found['mean_missed']['traditional']:.2f}; without a miss are "
-            f"{found['never_missed']['improved']:.0%} and {found['never_missed']['traditional']:.0%} of "
-            f"the arrangements. Where both arrive, the improved path has {length:.2f} times the length "
-            f"in joint space and {steps:.2f} times the steps (medians)."
+            f"{found['never_missed']['improved']:.0%} and "
+            f"{found['never_missed']['traditional']:.0%} of the arrangements. Where both arrive, "
+            f"the improved path has {length:.2f} times the length in joint space and {steps:.2f} "
+            "times the steps (medians)."
         ),
     )

@@ -29,7 +29,7 @@ def flanges_apart(slave: Plan, master: PlacedArm, track: JointPath) -> np.ndarra
 
 
 def flanges_apart_moving(slave: Plan, master: PlacedArm, track: JointPath) -> np.ndarray:
-    """The same while the slave is on its way: a slave that waits at its goal proves nothing of a track."""
+    """The same while the slave is on its way; one that waits at its goal has no track."""
     return flanges_apart(slave, master, track)[: slave.steps + 1]
 
 

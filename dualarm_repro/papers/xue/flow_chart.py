@@ -73,10 +73,10 @@ def flow_chart(assumed: Assumed) -> Result:
         },
         table=pd.DataFrame([{"from": a, "to": b, "taken": n} for (a, b), n in counts.items()]),
         caption=(
-            f"The flow that {_RUNS} runs of the code took, each arrow with how often: the master is "
-            "planned first, its path becomes a moving obstacle, then the slave is planned; either "
-            "turns to the virtual point when it stands still. The content of the printed chart is not "
-            "in the text edition, so it cannot be compared."
+            f"The flow that {_RUNS} runs of the code took, each arrow with how often: the master "
+            "is planned first, its path becomes a moving obstacle, then the slave is planned; "
+            "either turns to the virtual point when it stands still. The content of the printed "
+            "chart is not in the text edition, so it cannot be compared."
         ),
         alt="Flow chart: master, then slave, each with a side branch to the virtual point.",
         figure=lambda: flow_figure(_shown(counts), counts),
@@ -84,7 +84,7 @@ def flow_chart(assumed: Assumed) -> Result:
 
 
 def _master_first(case: Case) -> bool:
-    """Whether the moving obstacles of the slave follow the flange path of the finished master plan."""
+    """Whether the moving obstacles of the slave follow the finished path of the master."""
     obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.method)
     if obstacles is None:
         return False

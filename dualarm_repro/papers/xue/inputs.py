@@ -44,13 +44,16 @@ def window(assumed: Assumed) -> Result:
             "opening": [layout.window_opening_width, layout.window_opening_height],
         },
         caption=(
-            f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, on either side of a "
-            f"window found by search: opening {layout.window_opening_width:g} by "
+            f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, on either side of "
+            f"a window found by search: opening {layout.window_opening_width:g} by "
             f"{layout.window_opening_height:g} m about ({point(centre, 2)}) m, bars of "
             f"{layout.window_bar:g} m. Nothing of the window is printed, so there is nothing to "
             "compare it with."
         ),
-        alt="A rectangular frame of four bars in space, a point on either side and one in its middle.",
+        alt=(
+            "A rectangular frame of four bars in space, a point on either side and one in its "
+            "middle."
+        ),
         figure=lambda: tracks_figure(
             bars, [], {"Start": start, "End": end, "virtual point": centre}, elev=18, azim=-60
         ),
@@ -69,7 +72,9 @@ def gains(assumed: Assumed) -> Result:
     values = ", ".join(f"{name} = {value:g}" for name, value in used.items())
     return Result(
         obtained=used,
-        caption=f"Used as printed: {values}, with d_0 in {unit}; k_w is the gain named k_av elsewhere.",
+        caption=(
+            f"Used as printed: {values}, with d_0 in {unit}; k_w is the gain named k_av elsewhere."
+        ),
     )
 
 
@@ -85,9 +90,9 @@ def _register_slave_point(item: str, field: str, name: str) -> None:
         return Result(
             obtained={"position": reached.tolist(), "q": q.tolist(), "within_limits": bool(inside)},
             caption=(
-                f"{name} = ({point(reached, 2)}) {unit} is used as printed. Inverse kinematics gives "
-                f"the angles ({point(q, 3)}) rad, which (13) needs and print does not give; they are "
-                f"{'inside' if inside else 'outside'} the joint ranges of the real robot."
+                f"{name} = ({point(reached, 2)}) {unit} is used as printed. Inverse kinematics "
+                f"gives the angles ({point(q, 3)}) rad, which (13) needs and print does not give; "
+                f"they are {'inside' if inside else 'outside'} the joint ranges of the real robot."
             ),
         )
 
@@ -121,8 +126,8 @@ def equal_speed(assumed: Assumed) -> Result:
         },
         caption=(
             "Each arm makes one bounded joint step per instant. Its end effector then covers "
-            f"{100 * per_instant:.2f} cm per step on average for the master and {100 * speed:.2f} cm "
-            "for the slave: equal speed of the joints is not equal speed of the tools, and which of "
-            "them is meant is not printed."
+            f"{100 * per_instant:.2f} cm per step on average for the master and {100 * speed:.2f} "
+            "cm for the slave: equal speed of the joints is not equal speed of the tools, and "
+            "which of them is meant is not printed."
         ),
     )

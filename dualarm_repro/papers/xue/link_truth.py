@@ -5,15 +5,13 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-import pandas as pd
 
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result, Role
+from ...ledger import REGISTRY, Assumed, Bounded, Result, Role
 from ...planning.control_points import control_points
 from ...view.shares import curve_figure
-from .layout import arms_of, placed_slave
+from .layout import arms_of
 from .motions import Case, master_track, slave_plan
-from .readings import lengths
-from .stored import clear_share, lottery_table, share, successful
+from .stored import clear_share, share, successful
 from .table_2 import DECISIVE
 from .truth import Cores, largest_radius, link_cores
 
@@ -59,12 +57,12 @@ def only_end_effectors(assumed: Assumed) -> Result:
         table=None if nominal is None else nominal.found.to_frame().reset_index(),
         caption=(
             _nominal_sentence(nominal, radius)
-            + f" Of {len(ends)} random arrangements in which the end effectors do what Figs 8 to 11 "
-            f"show, all links of radius {radius:g} m stay clear in {found.value:.0%} (95 % interval "
-            f"{found.low:.0%} to {found.high:.0%}); in {posture_hits.value:.0%} the slave's posture at "
-            f"Start or End already touches a bar. The link nearest to the window is most often "
-            f"{nearest}. That no other link collides is thus no rule, and for the document's own "
-            "arrangement it cannot be decided."
+            + f" Of {len(ends)} random arrangements in which the end effectors do what Figs 8 to "
+            f"11 show, all links of radius {radius:g} m stay clear in {found.value:.0%} (95 % "
+            f"interval {found.low:.0%} to {found.high:.0%}); in {posture_hits.value:.0%} the "
+            "slave's posture at Start or End already touches a bar. The link nearest to the "
+            f"window is most often {nearest}. That no other link collides is thus no rule, and "
+            "for the document's own arrangement it cannot be decided."
         ),
         alt="Share of random arrangements with clear links over the link radius, falling steeply.",
         figure=_radius_figure,
@@ -93,16 +91,11 @@ def joints_as_points(assumed: Assumed) -> Result:
             "clear_with_radius": thick._asdict(),
         },
         caption=(
-            f"The potentials act on {len(points.names)} points without size. Where the points avoid "
-            f"everything, the segments between them are clear in {thin.value:.0%} of the arrangements, "
-            f"links of radius {radius:g} m in {thick.value:.0%}."
+            f"The potentials act on {len(points.names)} points without size. Where the points "
+            f"avoid everything, the segments between them are clear in {thin.value:.0%} of the "
+            f"arrangements, links of radius {radius:g} m in {thick.value:.0%}."
         ),
     )
-
-
-def floor_of(case: Case) -> float:
-    """Height of the floor of a standing robot: the published base height below the base frame [m]."""
-    return case.layout.master_base_z - lengths("published")["d1"]
 
 
 def _nominal_numbers(nominal: Cores | None, radius: float) -> dict:

@@ -1,7 +1,7 @@
 """The layout lottery: random arrangements in which Fig. 9 holds, and what both methods do there.
 
-Bases, window and its opening are not printed. One arrangement can be found for nearly any outcome of
-Table 2; the share of arrangements that show it says what the printed facts alone imply.
+Bases, window and its opening are not printed. One arrangement can be found for nearly any outcome
+of Table 2; the share of arrangements that show it says what the printed facts alone imply.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ def motion_row(case: Case) -> dict[str, Any]:
 
 
 def repelled_at_goal(case: Case) -> bool:
-    """Whether window or parked master repels the slave at its goal, so that it cannot rest there."""
+    """Whether window or parked master repels the slave at its goal: it cannot rest there."""
     placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
     settings = improved(case.method, case.layout.window_centre, placed.goal)
     made = problem(placed, placed.start, placed.goal, obstacles, settings)
@@ -179,7 +179,9 @@ def _cells() -> list[dict[str, Any]]:
 LOTTERY = REGISTRY.keeps(
     Study(
         name="xue_lottery",
-        title="Random arrangements in which Fig. 9 holds: outcome of every method, clearance of links",
+        title=(
+            "Random arrangements in which Fig. 9 holds: outcome of every method, clearance of links"
+        ),
         cells=_cells,
         compute=lottery_cell,
         sources=SOURCES,

@@ -36,8 +36,8 @@ def eq13_units() -> Proof:
     shares = minima_shares()
     metres, millimetres = shares[1.0].value, shares[1e-6].value
     return Proof(
-        "the two squares have different dimensions, so that the unit of length acts as a weight: with "
-        "lengths in millimetres far more descents end elsewhere than with metres",
+        "the two squares have different dimensions, so that the unit of length acts as a weight: "
+        "with lengths in millimetres far more descents end elsewhere than with metres",
         not one_dimension() and shares[1e-6].low > shares[1.0].high,
         {"minima_share_in_m": metres, "minima_share_in_mm": millimetres},
     )
@@ -48,8 +48,8 @@ def eq13_minima() -> Proof:
     """Descents of (13) without any obstacle."""
     shares = minima_shares()
     return Proof(
-        "without any obstacle some descents of (13), weight 1 in metres, end in a minimum elsewhere; "
-        "the more the position weighs, the more do",
+        "without any obstacle some descents of (13), weight 1 in metres, end in a minimum "
+        "elsewhere; the more the position weighs, the more do",
         shares[1.0].low > 0.0 and shares[0.1].low > shares[1.0].high,
         {f"weight {weight:g}": found.value for weight, found in shares.items()},
     )
@@ -60,7 +60,8 @@ def slave_goal_angles() -> Proof:
     """Calls of inverse kinematics that the goal of the slave costs."""
     values = evaluate(REGISTRY, "xue.claim_no_ik").result.obtained
     return Proof(
-        "(13) cannot be evaluated for the slave before inverse kinematics has been called for its goal",
+        "(13) cannot be evaluated for the slave before inverse kinematics has been called for its "
+        "goal",
         values["postures"] >= 1,
         values,
     )
@@ -73,8 +74,8 @@ def virtual_term_absent() -> Proof:
     share = GAINS["k_w"] / (GAINS["k_w"] + GAINS["k_a"])
     offset = share * float(np.linalg.norm(SLAVE_END - layout.window_centre))
     return Proof(
-        "with the term always on, the end effector would rest on the line from goal to virtual point, "
-        "so that a rule for switching it off is needed",
+        "with the term always on, the end effector would rest on the line from goal to virtual "
+        "point, so that a rule for switching it off is needed",
         rest_point_formula() and offset > 0.02,
         {"rest_share": share, "slave_distance_from_goal": offset},
     )
@@ -89,9 +90,9 @@ def virtual_point_credit() -> Proof:
     )
     counts = virtual_point_counts()
     return Proof(
-        "in the arrangement shown the improved method misses as rarely without the virtual point, so "
-        "that the joint term frees the arm; over random arrangements the point saves few of the runs "
-        "in which it acts",
+        "in the arrangement shown the improved method misses as rarely without the virtual point, "
+        "so that the joint term frees the arm; over random arrangements the point saves few of "
+        "the runs in which it acts",
         with_point == without and counts["rescued"] < 0.5 * counts["used"],
         {"missed_with": with_point, "missed_without": without, **counts},
     )
@@ -114,8 +115,8 @@ def table2_exchange() -> Proof:
     table = printed_counts()
     exchanged = dict(zip(table, reversed(table.values()), strict=True))
     return Proof(
-        "the trap column of the table contradicts the text, and agrees with it once its two entries "
-        "are exchanged",
+        "the trap column of the table contradicts the text, and agrees with it once its two "
+        "entries are exchanged",
         table != TEXT and exchanged == TEXT,
         {"table": table, "text": TEXT, "table_exchanged": exchanged},
     )
@@ -129,7 +130,8 @@ def deterministic_trials() -> Proof:
     found = run_methods(case, ("traditional", "improved"), begin)
     missed = {name: int((runs.reason != StopReason.REACHED).sum()) for name, runs in found.items()}
     return Proof(
-        "ten runs from one start all end alike, so that 8 of 10 needs a variation that is not named",
+        "ten runs from one start all end alike, so that 8 of 10 needs a variation that is not "
+        "named",
         all(count in (0, TRIALS) for count in missed.values())
         and all(len(np.unique(runs.last, axis=0)) == 1 for runs in found.values()),
         missed,
@@ -143,8 +145,8 @@ def tool_only() -> Proof:
     cores = link_cores(case.layout, slave_plan(case), master_track(case)).smallest
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
-        "there are arrangements in which both end effectors do what the figures show while links of a "
-        "tenth of a metre touch window or arm",
+        "there are arrangements in which both end effectors do what the figures show while links "
+        "of a tenth of a metre touch window or arm",
         clear_share(0.10).high < 1.0,
         {**shares, "nominal_touches_at": largest_radius(cores)},
     )
@@ -159,13 +161,13 @@ def layout_conflict() -> Proof:
     share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
     line = SLAVE_START + share * (SLAVE_END - SLAVE_START)
     sideways = [
-        float(np.linalg.norm(track + [0.0, offset, 0.0] - line, axis=1).min())
+        float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)
     ]
     anywhere = float(np.linalg.norm(track + case.layout.master_base - line, axis=1).min())
     return Proof(
-        "a base moved sideways only never brings the two end effectors together at one instant; one "
-        "moved in three directions does",
+        "a base moved sideways only never brings the two end effectors together at one instant; "
+        "one moved in three directions does",
         min(sideways) > 0.5 > anywhere,
         {"best_sideways": min(sideways), "base_of_the_arrangement": anywhere},
     )

@@ -17,7 +17,8 @@ from .sources import ROBOTS
 
 PAIRS = 40
 BLOCKS = 10
-#: Weights of the joint term [m^2/rad^2]; lengths in centimetres act as 1e-4, in millimetres as 1e-6.
+#: Weights of the joint term [m^2/rad^2]; lengths in centimetres act as 1e-4, in millimetres as
+#: 1e-6.
 WEIGHTS = (1e-6, 1e-4, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
 ARRIVED = 0.02  # [rad]
 FLAT = 1e-7  # |dU/dq| of a minimum

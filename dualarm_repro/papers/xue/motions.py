@@ -12,10 +12,10 @@ import numpy as np
 from ...errors import InputError
 from ...planning.compiled import plan_apf_compiled
 from ...planning.control_points import control_points
+from ...planning.master_slave import at_tool_speed
 from ...planning.obstacles import Obstacles, obstacles_of
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
-from ...planning.master_slave import at_tool_speed
 from ...scene import JointPath, PlacedArm, Scene
 from .layout import Layout, placed_master, placed_slave
 from .methods import Method, attraction_only, improved

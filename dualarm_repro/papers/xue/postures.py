@@ -14,10 +14,10 @@ def posture(arm: Arm, point: np.ndarray, choice: str) -> np.ndarray | None:
     """Configuration that brings the flange to ``point``, or None out of reach.
 
     The pose is completed by the direction of the tool: level and away from axis 1
-    (``radial_horizontal``, ``nearest_branch``) or down (``tool_down``). Turning the tool about its own
-    axis changes neither point nor direction, so that theta_6 = 0 can be had. Of the branches that
-    one is taken whose elbow is highest, with the shoulder turned to the point and |theta_4| <= pi/2,
-    or the one nearest to the zero configuration (``nearest_branch``).
+    (``radial_horizontal``, ``nearest_branch``) or down (``tool_down``). Turning the tool about its
+    own axis changes neither point nor direction, so that theta_6 = 0 can be had. Of the branches
+    that one is taken whose elbow is highest, with the shoulder turned to the point and
+    |theta_4| <= pi/2, or the one nearest to the zero configuration (``nearest_branch``).
 
     Parameters
     ----------

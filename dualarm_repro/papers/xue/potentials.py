@@ -1,4 +1,4 @@
-"""Equations (9)-(16) of `xue` and the words on the virtual point: symbols against the fields run."""
+"""Equations (9)-(16) of `xue` and the virtual point: print against the potentials run."""
 
 from __future__ import annotations
 
@@ -80,9 +80,10 @@ def attractive_force(assumed: Assumed) -> Result:
     return Result(
         obtained={**forms, "gradient": error},
         caption=(
-            "The negative gradient of (9) is the vector -k_a (X - X_g). With the modulus, as printed, "
-            "the right side is one number: it gives neither the direction nor, along a line, the sign. "
-            f"The joint gradient k_a J^T (X - X_g) agrees with central differences to {error:.0e}."
+            "The negative gradient of (9) is the vector -k_a (X - X_g). With the modulus, as "
+            "printed, the right side is one number: it gives neither the direction nor, along a "
+            "line, the sign. The joint gradient k_a J^T (X - X_g) agrees with central "
+            f"differences to {error:.0e}."
         ),
     )
 
@@ -116,8 +117,9 @@ def repulsive_force(assumed: Assumed) -> Result:
     return Result(
         obtained={"symbolic": bool(sp.simplify(-energy.diff(d) - force) == 0), "gradient": error},
         caption=(
-            "Differentiating (10) by d gives (12), sign and factors included. In the joints, through "
-            f"the nearest point's Jacobian, it agrees with central differences to {error:.0e}."
+            "Differentiating (10) by d gives (12), sign and factors included. In the joints, "
+            "through the nearest point's Jacobian, it agrees with central differences to "
+            f"{error:.0e}."
         ),
     )
 
@@ -240,7 +242,7 @@ def improved_attraction(assumed: Assumed) -> Result:
 
 
 def one_dimension() -> bool:
-    """Whether |X - X_g|^2 and sum |theta - theta_g|^2 have the same dimension (an angle has none)."""
+    """Whether |X - X_g|^2 and |theta - theta_g|^2 have one dimension; an angle has none."""
     position = dimsys_SI.get_dimensional_dependencies(length**2)
     angle = dimsys_SI.get_dimensional_dependencies(Dimension(1))
     return position == angle
@@ -281,8 +283,9 @@ def virtual_attraction(assumed: Assumed) -> Result:
             "rest_offset": offset if always else 0.0,
         },
         caption=(
-            f"{found.caption} An end effector that both attract rests {share:.0%} of the way from the "
-            "goal to the virtual point, so that the point must be off when the goal is to be reached"
+            f"{found.caption} An end effector that both attract rests {share:.0%} of the way from "
+            "the goal to the virtual point, so that the point must be off when the goal is to be "
+            "reached"
             + (f"; acting always, it would keep the master {offset:.2f} m away." if always else ".")
         ),
     )
@@ -311,14 +314,15 @@ def _agreement(
     return Result(
         obtained={"value": difference, "gradient": error, **(further or {})},
         caption=(
-            f"{name} evaluated at {len(q)} configurations agrees with the potential that is descended "
-            f"to {difference:.0e}, its joint gradient with central differences to {error:.0e}."
+            f"{name} evaluated at {len(q)} configurations agrees with the potential that is "
+            f"descended to {difference:.0e}, its joint gradient with central differences to "
+            f"{error:.0e}."
         ),
     )
 
 
 def _printed_repulsion(distance: np.ndarray, reading: str) -> np.ndarray:
-    """(10) and (14) for distances (N, points, bars), summed over points and bars or nearest bars."""
+    """(10) and (14) for distances (N, points, bars), over all bars or the nearest."""
     if reading == "nearest_bar":
         distance = distance.min(axis=2, keepdims=True)
     excess = np.where(distance <= GAINS["d_0"], 1.0 / distance - 1.0 / GAINS["d_0"], 0.0)

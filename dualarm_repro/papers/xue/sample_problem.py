@@ -11,8 +11,15 @@ from ...arms import load_arm
 from ...planning.obstacles import obstacles_of
 from ...planning.potentials import Potential
 from ...planning.problem import Problem, problem
-from ...planning.settings import APFSettings, Attraction, Repulsion, Termination, Trap
-from ...planning.settings import Update, VirtualPoint
+from ...planning.settings import (
+    APFSettings,
+    Attraction,
+    Repulsion,
+    Termination,
+    Trap,
+    Update,
+    VirtualPoint,
+)
 from ...scene import PlacedArm, Scene, facing, window_frame
 from .methods import COMBINATIONS
 from .scenario import GAINS, MASTER_GOAL, MASTER_START, SEED
@@ -61,14 +68,14 @@ def sample_problem(
 
 
 def samples(made: Problem, count: int = 200) -> np.ndarray:
-    """Configurations about the start at which every control point is outside the bars, (N, 6) [rad]."""
+    """Configurations about the start with all control points outside the bars (N, 6)."""
     rng = np.random.default_rng(SEED)
     q = MASTER_START + rng.uniform(-0.5, 0.5, (count, 6))
     return q[made.repulsion.distances(q).min(axis=(1, 2)) > 0.02]
 
 
 def worst_gradient(potential: Potential, q: np.ndarray) -> float:
-    """Largest relative difference between dU/dq and central differences of U over configurations."""
+    """Largest relative difference between dU/dq and central differences of U."""
     worst = 0.0
     for row in q:
         exact = potential.gradient(row)

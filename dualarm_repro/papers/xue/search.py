@@ -1,8 +1,8 @@
 """Search for an arrangement in which the printed facts hold together.
 
 Hill climbing from several starts: some numbers of the arrangement are disturbed, and the change is
-kept when the facts are met better; Table 2 counts once all figures are met. Its outcome shows that the facts are compatible; how typical they
-are is the business of the lottery.
+kept when the facts are met better; Table 2 counts once all figures are met. Its outcome shows that
+the facts are compatible; how typical they are is the business of the lottery.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from .layout import Layout, placed_master
 from .lottery import draw, fig_9_holds
 from .motions import (
     Case,
-    master_plan,
     master_track,
     master_undisturbed,
     slave_plan,
@@ -32,7 +31,7 @@ from .sources import ROBOTS, SOURCES
 from .trials import TRIALS, run_methods, starts
 from .truth import link_cores
 
-STARTS = 12
+STARTS = 4
 #: Random arrangements of which the best is climbed from.
 POOL = 30
 ROUNDS = 1000
@@ -70,10 +69,11 @@ _SMALLEST = {"base_distance": 0.5, "window_opening_width": 0.4, "window_opening_
 
 
 def margins(case: Case) -> dict[str, float]:
-    """By how much each printed fact is met [m]; negative where it is not, cut off at the first failure.
+    """By how much each printed fact is met [m]; negative where it is not, cut off at the first
+    failure.
 
-    Fig. 9: the undisturbed slave enters a bar, and meets the master. Fig. 8: the master arrives, its
-    links clear of the bars, which its undisturbed motion would touch. Figs 10 and 11: the slave
+    Fig. 9: the undisturbed slave enters a bar, and meets the master. Fig. 8: the master arrives,
+    its links clear of the bars, which its undisturbed motion would touch. Figs 10 and 11: the slave
     arrives through the opening, its links clear of bars and master. Start and End are out of range.
     """
     layout, method = case.layout, case.method

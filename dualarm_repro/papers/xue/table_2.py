@@ -32,6 +32,7 @@ TEXT = {"traditional": "8", "improved": "0"}
 #: An outcome that shows in this share of the arrangements does not hang on what is not printed.
 DECISIVE = 0.95
 _REPEATS = 3
+MISS_LABEL = "share of trials that miss the goal"
 
 
 class Trials(NamedTuple):
@@ -103,13 +104,15 @@ def both_methods(assumed: Assumed) -> Result:
         table=_trial_table(trials),
         caption=(
             f"Print gives the 8 traps to the improved method, the text to the traditional one. "
-            f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds, the outcome of the "
-            f"text (at least {MANY_MISSED} traditional, no improved runs missed) shows in "
+            f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds, the outcome of "
+            f"the text (at least {MANY_MISSED} traditional, no improved runs missed) shows in "
             f"{_percent(text)}, that of the table in {_percent(table)}. The text's reading is the "
             "likelier one, and neither is typical: the arrangement decides."
         ),
-        alt="Bars with intervals: share of trials that miss, per method and rule of the joint step.",
-        figure=lambda: shares_figure(many, "share of trials that miss the goal"),
+        alt=(
+            "Bars with intervals: share of trials that miss, per method and rule of the joint step."
+        ),
+        figure=lambda: shares_figure(many, MISS_LABEL),
     )
 
 
@@ -122,7 +125,9 @@ def both_methods(assumed: Assumed) -> Result:
             key="lottery.low",
             low=DECISIVE,
             role=Role.DECIDES,
-            label="random arrangements in which all ten succeed, lower bound; else a printed layout",
+            label=(
+                "random arrangements in which all ten succeed, lower bound; else a printed layout"
+            ),
         ),
     ],
     samples=32,
@@ -140,13 +145,16 @@ def improved_succeeds(assumed: Assumed) -> Result:
             "virtual_point": virtual,
         },
         caption=(
-            f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds all ten improved runs "
-            f"succeed in {_percent(found)}: the arrangement, which is not printed, decides. In "
-            f"{virtual['used']} of {virtual['runs']} runs there the virtual point acted, in "
+            f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds all ten improved "
+            f"runs succeed in {_percent(found)}: the arrangement, which is not printed, decides. "
+            f"In {virtual['used']} of {virtual['runs']} runs there the virtual point acted, in "
             f"{virtual['rescued']} of these the goal was then reached."
         ),
-        alt="Bars with intervals: share of trials that miss the goal, for nine variants of the method.",
-        figure=lambda: shares_figure(ablation_shares(), "share of trials that miss the goal"),
+        alt=(
+            "Bars with intervals: share of trials that miss the goal, for nine variants of the "
+            "method."
+        ),
+        figure=lambda: shares_figure(ablation_shares(), MISS_LABEL),
     )
 
 
@@ -160,7 +168,10 @@ def improved_succeeds(assumed: Assumed) -> Result:
             key="lottery.low",
             low=DECISIVE,
             role=Role.DECIDES,
-            label="random arrangements with at least 7 of 10 missed, lower bound; else a printed layout",
+            label=(
+                "random arrangements with at least 7 of 10 missed, lower bound; else a printed "
+                "layout"
+            ),
         ),
     ],
     samples=32,
@@ -220,10 +231,11 @@ def times(assumed: Assumed) -> Result:
         },
         measured={} if trials is None else _milliseconds(Case.of(assumed), assumed),
         caption=(
-            f"Over {timed} runs the traditional method makes {_number(old)} steps on average and the "
-            f"improved one {_number(new)}. With the labels {labels} the printed times have a ratio of "
-            f"{printed_ratio:.2f}. A run that ends in a trap adds the steps of the trap detection, so "
-            "the order follows from what is counted as a planning time, which is not printed."
+            f"Over {timed} runs the traditional method makes {_number(old)} steps on average and "
+            f"the improved one {_number(new)}. With the labels {labels} the printed times have a "
+            f"ratio of {printed_ratio:.2f}. A run that ends in a trap adds the steps of the trap "
+            "detection, so the order follows from what is counted as a planning time, which is "
+            "not printed."
         ),
     )
 

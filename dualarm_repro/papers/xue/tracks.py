@@ -22,6 +22,7 @@ from .facts import (
     points_to_window,
 )
 from .layout import Layout, placed_master
+from .methods import Method
 from .motion_scenes import avoiding_scene, colliding_scene, master_scene
 from .motions import (
     Case,
@@ -31,7 +32,6 @@ from .motions import (
     slave_plan,
     slave_undisturbed,
 )
-from .methods import Method
 from .scenario import GAINS
 
 checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
@@ -75,8 +75,8 @@ def master_past_window(assumed: Assumed) -> Result:
             + ("does the avoiding." if found["needed"] else "has nothing to avoid here.")
         ),
         alt=(
-            "Track of the master's end effector in space past a window frame of four bars, bent away "
-            "from the dashed track it would take without repulsion."
+            "Track of the master's end effector in space past a window frame of four bars, bent "
+            "away from the dashed track it would take without repulsion."
         ),
         figure=lambda: _master_figure(layout, method, plan),
         scene=lambda: master_scene(layout, plan),
@@ -99,9 +99,9 @@ def master_avoids(assumed: Assumed) -> Result:
     return Result(
         obtained=found,
         caption=(
-            f"All control points of the master stay {found['distance']:.3f} m or more from the bars, "
-            f"{found['distance_undisturbed']:.3f} m without repulsion. The virtual point acted "
-            f"{plan.activations} times. Of the real robot's joint limits the start and "
+            f"All control points of the master stay {found['distance']:.3f} m or more from the "
+            f"bars, {found['distance_undisturbed']:.3f} m without repulsion. The virtual point "
+            f"acted {plan.activations} times. Of the real robot's joint limits the start and "
             f"{found['beyond_limits']:.0%} of the path are outside."
         ),
         alt="Distance of the master to the window over the steps, with and without repulsion.",
@@ -126,8 +126,8 @@ def slave_collides(assumed: Assumed) -> Result:
             f"{found['nearest_step']}, both moving at the same time."
         ),
         alt=(
-            "Tracks of both end effectors in space; the slave's solid track runs through a bar of the "
-            "window and crosses the master's dashed track, with circles at both places."
+            "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
+            "the window and crosses the master's dashed track, with circles at both places."
         ),
         figure=lambda: _colliding_figure(replay),
         scene=lambda: colliding_scene(case.layout, replay.slave, replay.track),
@@ -150,7 +150,8 @@ def slave_collides_without(assumed: Assumed) -> Result:
             "Without avoidance the end effector "
             + _in_bar(found["flange_window"])
             + (f" (steps {steps[0]} to {steps[-1]})" if steps else "")
-            + f"; its smallest distance to the master's on the way is {found['flanges_apart']:.3f} m."
+            + "; its smallest distance to the master's on the way is "
+            f"{found['flanges_apart']:.3f} m."
         ),
     )
 
@@ -167,7 +168,9 @@ def avoiding_from_above(assumed: Assumed) -> Result:
         obtained=found,
         table=_track_table(replay),
         caption=f"Seen from above: {_arrival(replay, found)}",
-        alt="Plan view of a window, of the master's track and of the slave's track around its bars.",
+        alt=(
+            "Plan view of a window, of the master's track and of the slave's track around its bars."
+        ),
         figure=lambda: top_view_figure(
             case.layout.window(), _avoiding_tracks(replay), _marks(case.layout)
         ),
@@ -187,8 +190,8 @@ def avoiding_in_space(assumed: Assumed) -> Result:
         table=_track_table(replay),
         caption=f"With the improved method {_arrival(replay, found)}",
         alt=(
-            "Tracks of both end effectors in space: the slave's runs from Start through the opening "
-            "of the window to End, clear of the bars and of the master's track."
+            "Tracks of both end effectors in space: the slave's runs from Start through the "
+            "opening of the window to End, clear of the bars and of the master's track."
         ),
         figure=lambda: tracks_figure(
             case.layout.window(),
@@ -232,7 +235,10 @@ def slave_avoids(assumed: Assumed) -> Result:
             f"At the end effector, {_arrival(replay, found)} No control point comes closer than "
             f"{found['points']:.3f} m to window or master. What whole links do is another question."
         ),
-        alt="Distances of the slave's end effector to window and master over the steps, two methods.",
+        alt=(
+            "Distances of the slave's end effector to window and master over the steps, two "
+            "methods."
+        ),
         figure=lambda: distances_figure(curves, {"contact": 0.0, "meeting": meeting}),
     )
 
@@ -337,8 +343,11 @@ def _track_table(replay: Replay) -> pd.DataFrame:
     times = instants(replay.slave, replay.track)
     slave = replay.slave.tcp[np.minimum(times, replay.slave.steps)]
     master = end_effector(replay.master, replay.track.at(times))
-    columns = {f"{name}_{axis}_m": points[:, k] for name, points in (("master", master), ("slave", slave))
-               for k, axis in enumerate("xyz")}  # fmt: skip
+    columns = {
+        f"{name}_{axis}_m": points[:, k]
+        for name, points in (("master", master), ("slave", slave))
+        for k, axis in enumerate("xyz")
+    }
     return pd.DataFrame({"step": times, **columns})
 
 

@@ -1,4 +1,4 @@
-"""Seeded trials of the slave: the document names no source of variation, here its start angles vary."""
+"""Seeded trials of the slave; its start angles vary, since print names no variation."""
 
 from __future__ import annotations
 
@@ -76,8 +76,8 @@ METHODS: dict[str, Ablation] = {
 class Outcome(NamedTuple):
     """Trials of one method.
 
-    ``missed`` counts the runs that did not arrive, ``trapped`` those of them that were seen to stand
-    still, ``minima`` those of these that are certified to lie in a minimum of the potential.
+    ``missed`` counts the runs that did not arrive, ``trapped`` those of them that were seen to
+    stand still, ``minima`` those of these that are certified to lie in a minimum of the potential.
     ``used`` and ``rescued``: the virtual point acted, and acted with success. ``gradient`` is the
     largest |dU/dq| where a run stood still.
     """
@@ -196,8 +196,8 @@ def summary(case: Case, method: str, runs: Runs) -> Outcome:
 def _minima(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> int:
     """How many runs that stand still do so in a minimum of U_att + U_rep, all obstacles at rest.
 
-    That is certain where |dU/dq| <= FLAT; elsewhere a quasi-Newton descent starts there, and must end
-    with a gradient that small and away from the goal.
+    That is certain where |dU/dq| <= FLAT; elsewhere a quasi-Newton descent starts there, and must
+    end with a gradient that small and away from the goal.
     """
     count = int((gradient <= FLAT).sum())
     if count == len(last):

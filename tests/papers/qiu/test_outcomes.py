@@ -44,7 +44,8 @@ def test_improved_is_at_least_as_good_as_traditional(values):
 
 def test_rate_has_an_interval():
     found = rate([True] * 9 + [False])
-    assert found["successes"] == 9 and found["of"] == 10
+    assert found["successes"] == 9
+    assert found["of"] == 10
     assert found["low"] < found["rate"] < found["high"]
 
 
@@ -56,7 +57,9 @@ def test_goal_is_displaced_by_the_ratio_in_proportion(values):
     found = surroundings_at(made, 0, made.goal, 0)
     torque = repulsive_torque(made, found, np.full(3, 1e-3 * ZETA))
     rest = plan.path[-30:].mean(axis=0)
-    assert np.linalg.norm(rest - made.goal) == pytest.approx(np.linalg.norm(torque) / ZETA, rel=0.35)
+    assert np.linalg.norm(rest - made.goal) == pytest.approx(
+        np.linalg.norm(torque) / ZETA, rel=0.35
+    )
 
 
 def test_replay_reproduces_the_reported_clearance(values):

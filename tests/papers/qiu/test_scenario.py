@@ -52,7 +52,9 @@ def values():
 )
 def test_branch_postures_reach_their_point(direction, radius, bend):
     arm = placed("master")
-    point = shoulder(arm.placement.translation) + radius * np.array(direction) / np.linalg.norm(direction)
+    point = shoulder(arm.placement.translation) + radius * np.array(direction) / np.linalg.norm(
+        direction
+    )
     found = [branch_posture(arm, point, branch, (0.0, bend, 0.3)) for branch in BRANCHES]
     for q in found:
         if q is not None:

@@ -1,0 +1,56 @@
+"""Batches: each run ends as the plan of its own start does."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.errors import ConfigurationError, InputError
+from dualarm_repro.planning import certify, perturbed, plan_apf_compiled, plan_batch
+from dualarm_repro.planning.problem import problem
+from dualarm_repro.scene import Sphere
+
+from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
+
+STARTS = perturbed(START, 0.1, 6, np.random.default_rng(0))
+VARIANTS = {
+    "improved": IMPROVED,
+    "traditional": TRADITIONAL,
+    "virtual point": TRADITIONAL.changed(virtual_point=IMPROVED.virtual_point),
+}
+
+
+@pytest.mark.parametrize("settings", VARIANTS.values(), ids=VARIANTS)
+def test_each_run_is_the_plan_of_its_start(settings):
+    batch = plan_batch(SLAVE, STARTS, GOAL, around(), settings)
+    for k, start in enumerate(STARTS):
+        plan = plan_apf_compiled(SLAVE, start, GOAL, around(), settings)
+        assert (batch.reason[k], batch.steps[k]) == (plan.reason, plan.steps)
+        assert np.array_equal(batch.last[k], plan.path[-1])
+        assert batch.clearance[k] == plan.clearance.min()
+        assert (batch.activations[k], batch.arrivals[k]) == (plan.activations, plan.arrivals)
+        assert batch.rescued[k] == plan.rescued and batch.reached[k] == plan.reached
+        made = problem(SLAVE, start, GOAL, around(), settings)
+        gradient = certify(made, plan.path[-1], plan.steps).gradient_norm
+        assert batch.gradient_norm[k] == pytest.approx(gradient, rel=1e-6, abs=1e-9)
+
+
+def test_near_the_goal_is_told_from_trapped():
+    ball = around(ball=Sphere(SLAVE.placement.act(SLAVE.arm.positions(GOAL)) - [0, 0, 0.3], 0.1))
+    settings = IMPROVED.changed(virtual_point=None)
+    batch = plan_batch(SLAVE, STARTS, GOAL, ball, settings)
+    assert {str(reason) for reason in batch.reason} == {"goal-not-reachable-near-obstacle"}
+
+
+def test_perturbed_starts_are_seeded_and_bounded():
+    again = perturbed(START, 0.1, 6, np.random.default_rng(0))
+    assert np.array_equal(again, STARTS)
+    many = perturbed(START, 0.1, 500, np.random.default_rng(1)) - START
+    assert np.abs(many).max() <= 0.1 and np.abs(many).max() > 0.09
+    assert np.abs(many.mean(axis=0)).max() < 0.02
+
+
+def test_one_bad_start_is_named():
+    ball = around(ball=Sphere(SLAVE.placement.act(SLAVE.arm.positions(STARTS[4])), 0.02))
+    with pytest.raises(InputError, match="frame_6 outside ball"):
+        plan_batch(SLAVE, STARTS, GOAL, ball, IMPROVED)
+    with pytest.raises(ConfigurationError):
+        plan_batch(SLAVE, np.zeros((2, 5)), GOAL, around(), IMPROVED)

@@ -1,0 +1,175 @@
+"""Task files and the planners by name: a user's own arms from YAML to plans."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.errors import DataFileError, DualArmError, InputError, UnknownNameError
+from dualarm_repro.planning import METHODS, StopReason, load_tasks, method, plan_file, settings_schema
+from dualarm_repro.planning.control_points import end_effector
+from dualarm_repro.planning.methods import default_settings
+from dualarm_repro.scene import load_scene
+
+SCENE = """\
+arms:
+  left: {robot: irb120, xyz: [0.35, 0, 0], rpy: [0, 0, "pi/2"]}
+  right:
+    robot: irb120
+    xyz: [-0.35, 0, 0]
+    rpy: [0, 0, "pi/2"]
+    start: [0, 0, 0, 0, 0, 0]
+    goal: [-0.8, 0.3, 0.1, 0, 0.5, 0]
+obstacles:
+  ball: {kind: sphere, center: [0.05, 0.55, 0.35], radius: 0.05}
+"""
+TASKS = """\
+scene: cell.yaml
+tasks:
+  left: {start: [0, 0, 0, 0, 0, 0], goal: {position: [0.05, 0.3, 0.55], tool: radial}}
+  right: {goal: ["-pi/4", "10 deg", 0, 0, 0.5, 0]}
+"""
+SETTINGS = """\
+settings:
+  attraction: {gain: 1.0, joint_weight: 0.1}
+  control_points: [3, 5, 7]
+  repulsion: {gain: 1.0e-4, influence: 0.05}
+  update: {rule: gradient, gain: 0.5, max_step: 0.03}
+  termination:
+    joint_tolerance: 0.01
+    position_tolerance: 0.005
+    step_limit: 2000
+    trap: {rule: block_means, steps: 50, threshold: 1.0e-3}
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    (tmp_path / "cell.yaml").write_text(SCENE, encoding="utf-8")
+
+    def task_file(text):
+        path = tmp_path / "task.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return task_file
+
+
+def test_positions_become_joints_and_gaps_are_filled_from_the_scene(write):
+    given = load_tasks(write(TASKS))
+    assert list(given.tasks) == ["left", "right"] and given.settings is None
+    left = next(placed for placed in given.scene.arms if placed.name == "left")
+    assert end_effector(left, given.tasks["left"].goal) == pytest.approx([0.05, 0.3, 0.55])
+    assert given.tasks["right"].start == pytest.approx(np.zeros(6))
+    assert given.tasks["right"].goal[:2] == pytest.approx([-np.pi / 4, np.pi / 18])
+
+
+def test_a_position_alone_is_enough(write):
+    text = TASKS.replace(", tool: radial", "")
+    given = load_tasks(write(text))
+    left = given.scene.arms[0]
+    assert end_effector(left, given.tasks["left"].goal) == pytest.approx([0.05, 0.3, 0.55], abs=1e-6)
+
+
+def test_a_scene_file_with_start_and_goal_is_enough(write):
+    given = load_tasks(write(TASKS).with_name("cell.yaml"))
+    assert list(given.tasks) == ["right"]
+
+
+@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("settings", ["", SETTINGS])
+def test_every_method_runs_a_users_own_scene(write, name, settings):
+    result = plan_file(write(TASKS + settings), name)
+    assert set(result.plans) == {"left", "right"}
+    for plan in result.plans.values():
+        assert plan.reason in set(StopReason)
+        assert plan.reached == (plan.certificate is None)
+    assert np.isfinite(result.links(0.05).minimum)
+    if name == "attraction-only":
+        assert all(plan.reached and not plan.repulsive.any() for plan in result.plans.values())
+
+
+def test_methods_differ_in_what_they_are_named_after():
+    base = default_settings(load_tasks_arm())
+    improved, traditional, points, alone = (
+        METHODS[name].adapted(base)
+        for name in ("apf-improved", "apf-traditional", "apf-traditional-points", "attraction-only")
+    )
+    assert improved == base and improved.attraction.joint_weight > 0
+    assert traditional.control_points == "end_effector"
+    assert points.control_points == base.control_points
+    for settings in (traditional, points):
+        assert settings.attraction.joint_weight == 0.0 and settings.virtual_point is None
+        assert settings.termination.joint_tolerance is None
+    assert alone.repulsion is None
+
+
+def load_tasks_arm():
+    from dualarm_repro.arms import load_arm
+
+    return load_arm("irb120")
+
+
+def test_default_settings_scale_with_the_arm():
+    """Everything with a length in it follows the reach, so that an arm of twice the size plans alike."""
+    from dualarm_repro.arms import load_arm
+
+    sizes = [default_settings(load_arm(name)) for name in ("irb120", "es165d")]
+    reach = [np.linalg.norm(load_arm(n).chain.translation[1:], axis=1).sum() for n in ("irb120", "es165d")]
+    ratio = reach[1] / reach[0]
+    assert sizes[1].repulsion.influence == pytest.approx(ratio * sizes[0].repulsion.influence)
+    assert sizes[1].repulsion.gain == pytest.approx(ratio**4 * sizes[0].repulsion.gain)
+    assert sizes[1].attraction.joint_weight == pytest.approx(ratio**2 * sizes[0].attraction.joint_weight)
+    assert sizes[1].update.gain == pytest.approx(sizes[0].update.gain / ratio**2)
+
+
+def test_schema_of_a_method_lists_its_settings():
+    schema = settings_schema("apf-improved")
+    assert {"attraction", "repulsion", "update", "termination"} <= set(schema["properties"])
+    assert "d_0 [m]" in str(schema)
+
+
+def test_unknown_method():
+    with pytest.raises(UnknownNameError, match="one of apf-improved, apf-traditional"):
+        method("apf")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "field", "expected"),
+    [
+        ("position: [0.05, 0.3, 0.55]", "position: [0.05, 1.3, 0.55]", "tasks.left.goal: position", "out of reach by"),
+        ("[0, 0, 0, 0, 0, 0], goal", "[0, 0, .nan, 0, 0, 0], goal", "tasks.left.start", "a number in radians"),
+        ("[0, 0, 0, 0, 0, 0], goal", "[0, 0, 0], goal", "tasks.left.start: shape of q", "6 finite"),
+        ("start: [0, 0, 0, 0, 0, 0], ", "", "tasks.left.start", "a joint vector or a position"),
+        ("left:", "middle:", "tasks", "one of left, right"),
+        ("gain: 1.0,", "gain: -1.0,", "settings: Attraction.gain", "greater than 0"),
+        ("step_limit: 2000", "steps: 2000", "settings: Termination.steps", "no field"),
+        ("scene: cell.yaml", "scene: none.yaml", "file", "a readable YAML file"),
+        ("tool: radial", "tool: sideways", "tasks.left.goal", "radial"),
+    ],
+)
+def test_a_wrong_file_names_the_field(write, old, new, field, expected):
+    text = TASKS + SETTINGS
+    assert old in text
+    with pytest.raises(DataFileError, match=expected) as caught:
+        load_tasks(write(text.replace(old, new)))
+    assert caught.value.field.startswith(field)
+    assert str(caught.value.source).endswith((".yaml",))
+
+
+def test_no_arm_has_a_task(tmp_path):
+    path = tmp_path / "idle.yaml"
+    path.write_text("arms: {left: {robot: irb120}}\n", encoding="utf-8")
+    with pytest.raises(DataFileError, match="an arm with start and goal"):
+        load_tasks(path)
+
+
+def test_links_that_collide_at_the_start_end_the_run(write):
+    path = write(TASKS)
+    cell = path.with_name("cell.yaml")
+    cell.write_text(SCENE.replace("[0.05, 0.55, 0.35]", "[0.35, 0.0, 0.45]"), encoding="utf-8")
+    assert load_scene(cell).columns
+    with pytest.raises(InputError, match="left/.* and ball apart, not at a distance of -"):
+        plan_file(path, "apf-improved")
+
+
+def test_every_error_is_one_the_command_line_knows():
+    assert issubclass(DataFileError, DualArmError)

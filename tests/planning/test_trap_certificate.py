@@ -1,0 +1,64 @@
+"""Certificates: gradient and curvature at a known minimum, saddle and slope."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.planning import Attraction, certify, obstacles_of
+from dualarm_repro.planning.certificate import hessian
+from dualarm_repro.planning.problem import problem
+from dualarm_repro.scene import Scene, Sphere
+
+from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around
+
+NOTHING = obstacles_of(Scene([SLAVE]))
+JOINTS = IMPROVED.changed(attraction=Attraction(gain=2.0, position_weight=0.0, joint_weight=1.5))
+
+
+def test_in_a_bowl_of_the_joints():
+    made = problem(SLAVE, START, GOAL, NOTHING, JOINTS)
+    assert hessian(made, START, 0) == pytest.approx(3.0 * np.eye(6), abs=1e-6)
+    there, away = certify(made, GOAL, 0), certify(made, START, 0)
+    assert (there.gradient_norm, there.joint_error, there.position_error) == (0.0, 0.0, 0.0)
+    assert there.smallest_curvature == pytest.approx(3.0)
+    assert away.gradient_norm == pytest.approx(3.0 * np.linalg.norm(START - GOAL))
+    assert there.acting == away.acting == ()
+
+
+def test_a_saddle_shows_a_negative_curvature():
+    """Stretched out exactly away from its target, the arm is in balance, yet every way is down."""
+    q = np.zeros(6)
+    made = problem(
+        MASTER,
+        q,
+        np.array([np.pi, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        obstacles_of(Scene([MASTER])),
+        IMPROVED.changed(attraction=Attraction(gain=1.0)),
+    )
+    assert made.field.gradient(q)[0] == pytest.approx(0.0, abs=1e-12)
+    assert certify(made, q, 0).smallest_curvature < -1.0
+
+
+def test_second_derivatives_are_those_of_the_value():
+    ball = Sphere(SLAVE.placement.act(SLAVE.arm.positions(START)) + [0.0, 0.0, 0.35], 0.15)
+    made = problem(SLAVE, START, GOAL, around(ball=ball), IMPROVED)
+    second, h = hessian(made, START, 0), 1e-4
+    assert made.repulsion.value(START) > 0
+    for j, k in ((0, 0), (1, 2), (3, 4), (1, 1)):
+        dj, dk = h * np.eye(6)[j], h * np.eye(6)[k]
+        signs = ((1, dj + dk), (-1, dj - dk), (-1, dk - dj), (1, -dj - dk))
+        numeric = sum(sign * made.field.value(START + d) for sign, d in signs) / (4 * h * h)
+        assert second[j, k] == pytest.approx(numeric, rel=1e-3, abs=1e-3)
+
+
+def test_joints_held_by_a_limit_do_not_count():
+    low, high = MASTER.arm.lower, MASTER.arm.upper
+    start = 0.5 * (low + high)
+    goal = start.copy()
+    settings = JOINTS.changed(enforce_limits=True)
+    made = problem(MASTER, start, goal, obstacles_of(Scene([MASTER])), settings)
+    held = goal.copy()
+    held[1] = high[1]
+    assert certify(made, held, 0).gradient_norm > 0.1  # drawn back from the limit
+    beyond = problem(MASTER, start, goal, made.obstacles, settings)
+    object.__setattr__(beyond, "goal", np.where(np.arange(6) == 1, high + 0.3, goal))
+    assert certify(beyond, held, 0).gradient_norm == pytest.approx(0.0, abs=1e-12)
