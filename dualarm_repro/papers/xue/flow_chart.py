@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import pairwise
 
@@ -12,7 +13,8 @@ import pandas as pd
 from ...ledger import REGISTRY, Assumed, Is, NeedsPrinted, Result
 from ...planning.plan import Plan
 from ...planning.termination import StopReason
-from ...view.flow import flow_figure
+from ...view.transitions import transitions_figure
+from .ablation import NAMED
 from .layout import placed_slave
 from .methods import improved
 from .motions import Case, attempt, master_plan, slave_obstacles
@@ -29,8 +31,8 @@ _STATES = {
     "slave: descend the potential": (0.0, 2.0),
     "slave: toward the virtual point": (3.4, 2.0),
     "both paths found": (0.0, 1.0),
-    "given up: trapped": (3.4, 1.0),
-    "given up: near an obstacle": (3.4, 0.4),
+    "given up: trapped": (3.4, 0.6),
+    "given up: near an obstacle": (1.7, 0.0),
     "given up: step limit": (3.4, 3.0),
 }
 _END = {
@@ -63,7 +65,12 @@ _WIDTH, _RUNS = 0.6, 40
 def flow_chart(assumed: Assumed) -> Result:
     """States and transitions of the planner, counted over runs from widely perturbed starts."""
     case = Case.of(assumed)
-    counts = _transitions(case)
+    layouts = (
+        case.layout,
+        replace(case.layout, **NAMED["yawed"]),
+        replace(case.layout, window_opening_width=0.4, window_opening_height=0.35),
+    )
+    counts = sum((_transitions(case._replace(layout=layout)) for layout in layouts), Counter())
     unknown = [pair for pair in counts if not set(pair) <= set(_STATES)]
     return Result(
         obtained={
@@ -79,7 +86,7 @@ def flow_chart(assumed: Assumed) -> Result:
             "chart is not in the text edition, so it cannot be compared."
         ),
         alt="Flow chart: master, then slave, each with a side branch to the virtual point.",
-        figure=lambda: flow_figure(_shown(counts), counts),
+        figure=lambda: transitions_figure(_shown(counts), counts),
     )
 
 

@@ -11,6 +11,7 @@ from ...planning.control_points import control_points
 from ...view.shares import curve_figure
 from .layout import arms_of
 from .motions import Case, master_track, slave_plan
+from .readings import lengths
 from .stored import clear_share, share, successful
 from .table_2 import DECISIVE
 from .truth import Cores, largest_radius, link_cores
@@ -39,7 +40,10 @@ def only_end_effectors(assumed: Assumed) -> Result:
     slave, track = slave_plan(case), master_track(case)
     found = clear_share(radius)
     parts = {pair: clear_share(radius, pair) for pair in ("slave_window", "master_window", "arms")}
-    nominal = None if slave is None or track is None else link_cores(case.layout, slave, track)
+    floor = case.layout.master_base_z - lengths("published")["d1"]
+    nominal = None
+    if slave is not None and track is not None:
+        nominal = link_cores(case.layout, slave, track, floor)
     ends = successful()
     posture_hits = share(
         (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum(), len(ends)
@@ -105,6 +109,9 @@ def _nominal_numbers(nominal: Cores | None, radius: float) -> dict:
         "nominal": nominal.smallest,
         "nominal_largest_radius": largest_radius(nominal.smallest),
         "nominal_clear": largest_radius(nominal.smallest) > radius,
+        "nominal_floor": {
+            name: float(nominal.between(name, "floor").min()) for name in ("master", "slave")
+        },
     }
 
 
@@ -115,7 +122,8 @@ def _nominal_sentence(nominal: Cores | None, radius: float) -> str:
     word = "clear" if limit > radius else "not clear"
     return (
         f"In the arrangement shown, selected for it, links of radius {radius:g} m are {word}: they "
-        f"would touch at {limit:.3f} m."
+        f"would touch at {limit:.3f} m. On a floor at the published height of the base, the master "
+        f"would reach {-nominal.between('master', 'floor').min():.2f} m below it."
     )
 
 

@@ -36,6 +36,7 @@ from .scenario import GAINS
 
 checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
 
+NOTHING = "In this arrangement there are not two motions to compare."
 _NEAR = 1.4  # of the tracks in space, around the window [m]
 _VIEW = {"elev": 24, "azim": -70}
 
@@ -112,37 +113,33 @@ def master_avoids(assumed: Assumed) -> Result:
 @checks("xue.fig09", rules=_COLLIDING_RULES)
 def slave_collides(assumed: Assumed) -> Result:
     """The slave under attraction alone beside the planned master."""
-    case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_undisturbed(case.layout, case.method))
+    replay, found = _colliding(assumed)
     if replay is None:
-        return Result(_no_meeting(), "In this arrangement there are not two motions to compare.")
-    found = _meeting_numbers(replay, meeting, moving=True)
+        return Result(found, NOTHING)
     return Result(
         obtained=found,
         caption=(
             "Attracted only, the slave's end effector "
             + _in_bar(found["flange_window"])
             + f" and comes within {found['flanges_apart']:.3f} m of the master's at step "
-            f"{found['nearest_step']}, both moving at the same time."
+            f"{found['nearest_step']} of {found['steps']}, both moving at the same time."
         ),
         alt=(
             "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
             "the window and crosses the master's dashed track, with circles at both places."
         ),
         figure=lambda: _colliding_figure(replay),
-        scene=lambda: colliding_scene(case.layout, replay.slave, replay.track),
+        scene=lambda: colliding_scene(replay.case.layout, replay.slave, replay.track),
     )
 
 
 @checks("xue.claim_slave_collides_without", rules=_COLLIDING_RULES)
 def slave_collides_without(assumed: Assumed) -> Result:
     """Where the undisturbed track enters a bar and where it meets the master."""
-    case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_undisturbed(case.layout, case.method))
+    replay, found = _colliding(assumed)
     if replay is None:
-        return Result(_no_meeting(), "In this arrangement there are not two motions to compare.")
-    found = _meeting_numbers(replay, meeting, moving=True)
-    inside = flange_to_window(replay.slave, case.layout) <= 0.0
+        return Result(found, NOTHING)
+    inside = flange_to_window(replay.slave, replay.case.layout) <= 0.0
     steps = np.flatnonzero(inside).tolist()
     return Result(
         obtained={**found, "steps_inside_bar": steps},
@@ -159,11 +156,9 @@ def slave_collides_without(assumed: Assumed) -> Result:
 @checks("xue.fig10", rules=_AVOIDING_RULES)
 def avoiding_from_above(assumed: Assumed) -> Result:
     """Both avoiding tracks seen along the vertical."""
-    case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_plan(case))
+    replay, found = _avoiding(assumed)
     if replay is None:
-        return Result(_no_meeting(), "In this arrangement there are not two motions to compare.")
-    found = _meeting_numbers(replay, meeting)
+        return Result(found, NOTHING)
     return Result(
         obtained=found,
         table=_track_table(replay),
@@ -172,7 +167,7 @@ def avoiding_from_above(assumed: Assumed) -> Result:
             "Plan view of a window, of the master's track and of the slave's track around its bars."
         ),
         figure=lambda: top_view_figure(
-            case.layout.window(), _avoiding_tracks(replay), _marks(case.layout)
+            replay.case.layout.window(), _avoiding_tracks(replay), _marks(replay.case.layout)
         ),
     )
 
@@ -180,11 +175,9 @@ def avoiding_from_above(assumed: Assumed) -> Result:
 @checks("xue.fig11", rules=_AVOIDING_RULES)
 def avoiding_in_space(assumed: Assumed) -> Result:
     """Both avoiding tracks in space."""
-    case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_plan(case))
+    replay, found = _avoiding(assumed)
     if replay is None:
-        return Result(_no_meeting(), "In this arrangement there are not two motions to compare.")
-    found = _meeting_numbers(replay, meeting)
+        return Result(found, NOTHING)
     return Result(
         obtained=found,
         table=_track_table(replay),
@@ -194,13 +187,13 @@ def avoiding_in_space(assumed: Assumed) -> Result:
             "opening of the window to End, clear of the bars and of the master's track."
         ),
         figure=lambda: tracks_figure(
-            case.layout.window(),
+            replay.case.layout.window(),
             _avoiding_tracks(replay),
-            _marks(case.layout),
+            _marks(replay.case.layout),
             near=_NEAR,
             **_VIEW,
         ),
-        scene=lambda: avoiding_scene(case.layout, replay.slave, replay.track),
+        scene=lambda: avoiding_scene(replay.case.layout, replay.slave, replay.track),
     )
 
 
@@ -215,12 +208,10 @@ def avoiding_in_space(assumed: Assumed) -> Result:
 )
 def slave_avoids(assumed: Assumed) -> Result:
     """Smallest distances of the slave's end effector and control points until both arms rest."""
-    case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_plan(case))
+    replay, found = _avoiding(assumed)
     if replay is None:
-        nothing = {**_no_meeting(), "points": None}
-        return Result(nothing, "In this arrangement there are not two motions to compare.")
-    found = _meeting_numbers(replay, meeting)
+        return Result({**found, "points": None}, NOTHING)
+    case = replay.case
     found["points"] = float(replay.slave.clearance.min())
     undisturbed = replay_of(case, slave_undisturbed(case.layout, case.method))
     curves = {
@@ -239,8 +230,24 @@ def slave_avoids(assumed: Assumed) -> Result:
             "Distances of the slave's end effector to window and master over the steps, two "
             "methods."
         ),
-        figure=lambda: distances_figure(curves, {"contact": 0.0, "meeting": meeting}),
+        figure=lambda: distances_figure(
+            curves, {"contact": 0.0, "meeting": assumed["meeting_distance"]}
+        ),
     )
+
+
+def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
+    """The undisturbed slave beside the master, and how they meet while it moves."""
+    case, meeting = Case.of(assumed), assumed["meeting_distance"]
+    replay = replay_of(case, slave_undisturbed(case.layout, case.method))
+    return replay, _meeting_numbers(replay, meeting, moving=True)
+
+
+def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
+    """The improved slave beside the master, and how they meet until both rest."""
+    case, meeting = Case.of(assumed), assumed["meeting_distance"]
+    replay = replay_of(case, slave_plan(case))
+    return replay, _meeting_numbers(replay, meeting, moving=False)
 
 
 class Replay(NamedTuple):
@@ -279,8 +286,10 @@ def _master_numbers(layout: Layout, method: Method, plan: Plan | None) -> dict[s
     }
 
 
-def _meeting_numbers(replay: Replay, meeting: float, moving: bool = False) -> dict[str, Any]:
+def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> dict[str, Any]:
     """Distances to bars and master until both arms rest, or while the slave is moving."""
+    if replay is None:
+        return {"reached": False, "flange_window": None, "enters_bar": False, "meets_master": None}
     window = float(flange_to_window(replay.slave, replay.case.layout).min())
     apart = (flanges_apart_moving if moving else flanges_apart)(
         replay.slave, replay.master, replay.track
@@ -296,10 +305,6 @@ def _meeting_numbers(replay: Replay, meeting: float, moving: bool = False) -> di
         "nearest_step": int(apart.argmin()),
         "meets_master": bool(apart.min() <= meeting),
     }
-
-
-def _no_meeting() -> dict[str, Any]:
-    return {"reached": False, "flange_window": None, "enters_bar": False, "meets_master": None}
 
 
 def _in_bar(window: float) -> str:
