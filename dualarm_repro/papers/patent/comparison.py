@@ -36,7 +36,6 @@ KEPT = 5e-4
 
 @checks(
     "patent.fig02",
-    samples=32,
     rules=[
         Bounded(
             key="naive_distance", high=-0.05, label="without avoidance the arms interpenetrate [m]"
