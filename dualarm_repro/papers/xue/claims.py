@@ -8,6 +8,7 @@ from functools import lru_cache, partial
 import numpy as np
 import pandas as pd
 
+from ...errors import InputError
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
 from ...planning.apf import plan_apf
 from ...planning.problem import problem
@@ -15,12 +16,14 @@ from ...planning.termination import StopReason
 from ...scene import PlacedArm
 from .layout import placed_slave
 from .methods import improved, traditional
-from .motions import Case, slave_obstacles
+from .motions import Case, slave_obstacles, slave_plan
 from .postures import posture
 from .stored import lottery_table, missed
 from .trials import FLAT, METHODS, TRIALS, run_trials, starts
 
 checks = partial(REGISTRY.checks, page="xue/table2")
+
+NOTHING = "In this arrangement there is nothing to plan."
 
 
 @checks(
@@ -45,9 +48,7 @@ def stops_at_zero(assumed: Assumed) -> Result:
     names = ("classical_method", "trial_perturbation", "trial_seed")
     ends = _trap(case, *(assumed[name] for name in names))
     if ends is None:
-        return Result(
-            {"at_goal": None, "at_trap": None, "gradient": None}, "There is nothing to plan."
-        )
+        return Result({"at_goal": None, "at_trap": None, "gradient": None}, NOTHING)
     at_goal, at_trap, gradient = ends
     trap = "no run is trapped." if at_trap is None else (
         f"a trapped run stands still at a potential of {at_trap:.2f}, where the gradient is "
@@ -74,8 +75,11 @@ def _trap(
     method = "five_points" if reading == "five_points" else "traditional"
     settings = METHODS[method].settings(case)
     begin = starts(case, half_width, TRIALS, np.random.default_rng(seed))
+    try:
+        made = problem(placed, placed.start, placed.goal, obstacles, settings)
+    except InputError:  # the unperturbed start touches an obstacle
+        return None
     runs = run_trials(case, method, begin)
-    made = problem(placed, placed.start, placed.goal, obstacles, settings)
     rest = len(obstacles.cores) - 1
     at_goal = float(made.field.value(placed.goal, rest))
     stuck = np.flatnonzero(runs.reason == StopReason.TRAPPED)
@@ -103,6 +107,9 @@ def without_inverse_kinematics(assumed: Assumed) -> Result:
     """Calls of the closed-form inverse, counted on a copy of the slave's arm."""
     case = Case.of(assumed)
     placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
+    if obstacles is None or slave_plan(case) is None:
+        nothing = {"improved_plan": None, "traditional_plan": None, "postures": None}
+        return Result(nothing, NOTHING)
     calls = {
         "improved_plan": improved(case.method, case.layout.window_centre, placed.goal),
         "traditional_plan": traditional(case.method, assumed["classical_method"]),

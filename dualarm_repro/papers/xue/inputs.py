@@ -83,6 +83,10 @@ def _register_slave_point(item: str, field: str, name: str) -> None:
     def slave_point(assumed: Assumed) -> Result:
         unit, layout = assumed["length_unit"], Layout.of(assumed)
         slave = placed_slave(layout)
+        if slave is None:
+            return Result(
+                {"position": None}, f"From this base {name} or its fellow is out of reach."
+            )
         q = getattr(slave, field)
         origin = layout.slave_base if layout.slave_frame == "slave_base" else np.zeros(3)
         reached = end_effector(slave, q) - origin
@@ -111,6 +115,8 @@ def equal_speed(assumed: Assumed) -> Result:
     """The index that both motions share."""
     case = Case.of(assumed)
     track, slave = master_track(case), slave_undisturbed(case.layout, case.method)
+    if track is None or slave is None:
+        return Result({"equal": False}, "In this arrangement there are not two motions to compare.")
     steps = np.diff(track.index)
     speed = slave.tcp_length / slave.steps
     flange = end_effector(placed_master(case.layout), track.configurations)
