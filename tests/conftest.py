@@ -1,12 +1,13 @@
-"""Shared by all tests: no record cache, a quiet and reproducible hypothesis profile."""
+"""Shared by all tests: a registry, and a quiet and reproducible hypothesis profile.
 
-import os
+Records come from the cache of the user, whose key is the fingerprint of source, data and versions:
+the suite computes each once, and the book built after it none.
+"""
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
 
-os.environ["DUALARM_CACHE"] = "off"
 mpl.use("agg")
 settings.register_profile("reproducible", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("reproducible")

@@ -1,7 +1,6 @@
 """The command line as a newcomer uses it, wrong arguments included."""
 
 import json
-import os
 import subprocess
 import sys
 
@@ -31,12 +30,10 @@ def dualarm(capsys, monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def records(tmp_path_factory):
-    """`dualarm list --json` in a process of its own, with a cold cache of its own."""
-    cache = tmp_path_factory.mktemp("cache")
+def records():
+    """`dualarm list --json` in a process of its own."""
     command = [sys.executable, "-m", "dualarm_repro.cli", "list", "--json"]
-    environment = {**os.environ, "DUALARM_CACHE": str(cache)}
-    found = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
+    found = subprocess.run(command, capture_output=True, text=True, check=True)
     return json.loads(found.stdout)
 
 
