@@ -178,6 +178,8 @@ def plan(
     files.append(write_text(out / f"{scene.stem}.html", html))
     for name, entry in summary["arms"].items():
         print(f"{name}: {entry['reason']} after {entry['steps']} steps")
+        if missed := entry["out_of_reach_m"]:
+            print(f"  goal out of reach by {missed:.4f} m: planned to the nearest posture")
         if entry["certificate"]:
             certificate = entry["certificate"]
             print(f"  {', '.join(f'{key} {value}' for key, value in certificate.items())}")
@@ -223,7 +225,7 @@ def cite(
 
 
 def main() -> None:
-    """Entry point: bad input is one line on stderr and exit code 2; a failed check is exit code 1."""
+    """Entry point: bad input is one line on stderr and exit code 2, a failed check exit code 1."""
     if len(sys.argv) == 1:
         app(["--help"], standalone_mode=False)
         sys.exit(2)
@@ -311,7 +313,9 @@ def _robustness_line(found: dict[str, Any] | None) -> str:
     if found is None:
         return "rests on no sampled assumption"
     low, high = found["interval"]
-    text = f"verdict holds in {found['holds']:.1%} of {found['samples']} draws ({low:.1%}-{high:.1%})"
+    text = (
+        f"verdict holds in {found['holds']:.1%} of {found['samples']} draws ({low:.1%}-{high:.1%})"
+    )
     flip = found["flip"]
     if flip is None:
         return f"{text}; no single change within the plausible values flips it"

@@ -1,4 +1,4 @@
-"""Where the data files are and how YAML is read: from the clone, or from inside an installed wheel."""
+"""Where the data files are, in a clone or inside an installed wheel, and how YAML is read."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
 
 
 def from_validation(source: object, error: ValidationError) -> DataFileError:
-    """The first problem pydantic found, as an error that names file, field, value and expectation."""
+    """The first problem pydantic found, naming file, field, value and expectation."""
     # A misspelt field is also a missing one; the misspelling is what helps.
     first = min(error.errors(), key=lambda entry: entry["type"] != "extra_forbidden")
     field = ".".join(str(part) for part in first["loc"]) or "file"

@@ -1,10 +1,10 @@
-"""Exceptions of the package: every message names the source, the field, the value and what was expected."""
+"""Exceptions: every message names the source, the field, the value and what was expected."""
 
 from __future__ import annotations
 
 
 class DualArmError(Exception):
-    """Base of all errors a caller may want to catch; the CLI turns it into one line and exit code 2."""
+    """Base of all errors to catch; the CLI turns it into one line and exit code 2."""
 
 
 class InputError(DualArmError):

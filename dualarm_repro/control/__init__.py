@@ -1,1 +1,7 @@
 """Velocity-level control of arms that share a workspace: problem, exact solvers, closed loop."""
+
+from .controller import VelocityController
+from .settings import Settings
+from .system import ArmSystem
+
+__all__ = ["ArmSystem", "Settings", "VelocityController"]

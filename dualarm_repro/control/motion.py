@@ -13,6 +13,8 @@ class Motion:
 
     Attributes
     ----------
+    dt : float
+        Step [s].
     time : (N + 1,) [s]
     q : (N + 1, n) [rad]
     x : (N, n)
@@ -29,6 +31,7 @@ class Motion:
         Why the run ended before its time.
     """
 
+    dt: float
     time: np.ndarray
     q: np.ndarray
     x: np.ndarray
@@ -37,11 +40,6 @@ class Motion:
     rows: np.ndarray
     slack: np.ndarray
     stopped: str | None = None
-
-    @property
-    def dt(self) -> float:
-        """Step [s]."""
-        return float(self.time[1] - self.time[0])
 
     @property
     def completed(self) -> bool:

@@ -83,6 +83,7 @@ def truncated(status: int, taken: int, dt: float, q, x, error, distance, rows, s
     reason = None if status == DONE else f"{REASONS[status]} at t = {taken * dt:.3f} s"
     k = taken + 1
     return Motion(
+        dt,
         dt * np.arange(k),
         q[:k],
         x[:taken],

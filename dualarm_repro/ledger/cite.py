@@ -38,7 +38,9 @@ def cite(registry: Registry, item_id: str, form: str, verdict: str) -> Any:
     item, document = registry.item(item_id), registry.paper_of(item_id).document
     key = re.sub(r"\W+", "_", f"{PROJECT}_{item_id}")
     title = f"{item_id}: {item.title}"
-    note = f"Verdict: {verdict}. Reproduces {item.kind} {item_id.partition('.')[2]} of {document.id}"
+    note = (
+        f"Verdict: {verdict}. Reproduces {item.kind} {item_id.partition('.')[2]} of {document.id}"
+    )
     number = version(PROJECT)
     if form == "csl-json":
         result = {

@@ -16,7 +16,7 @@ from .verdict import Verdict, decide
 
 @dataclass(frozen=True)
 class Evaluation:
-    """One item with its result and verdict; ``result`` is None for an item that is not attempted."""
+    """One item, its result and verdict; ``result`` is None for an item that is not attempted."""
 
     item_id: str
     item: Item

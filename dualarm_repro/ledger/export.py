@@ -53,7 +53,7 @@ def export(
             for suffix, extra in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 160})):
 
                 def save(path: Path, extra: dict[str, Any] = extra) -> None:
-                    figure.savefig(path, **extra)
+                    figure.savefig(path, bbox_inches="tight", **extra)
 
                 written.append(write(folder / f"{name}{suffix}", save))
     finally:

@@ -47,7 +47,7 @@ def write_text(path: Path, text: str) -> Path:
 
 
 def to_json(value: Any, indent: int | None = 2) -> str:
-    """JSON text; numpy scalars and arrays become numbers and lists, NaN and infinity become null."""
+    """JSON text; numpy values become numbers and lists, NaN and infinity become null."""
     return json.dumps(_plain(value), indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -42,6 +42,8 @@ def fingerprint() -> str:
     """
     package, data = Path(__file__).resolve().parents[1], data_root()
     sources = [p for p in package.rglob("*.py")]
-    inputs = [p for p in data.rglob("*") if p.is_file() and "results" not in p.relative_to(data).parts]
+    inputs = [
+        p for p in data.rglob("*") if p.is_file() and "results" not in p.relative_to(data).parts
+    ]
     parts = hash_files(sources, package) + hash_files(inputs, data) + repr(versions())
     return sha256(parts.encode()).hexdigest()

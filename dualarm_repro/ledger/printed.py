@@ -79,7 +79,9 @@ def at(value: Any, path: str | tuple[Any, ...]) -> Any:
         try:
             value = value[int(part)] if isinstance(value, list | tuple) else value[part]
         except (KeyError, IndexError, ValueError, TypeError):
-            raise InputError("ledger", "path", ".".join(map(str, parts)), "an existing key") from None
+            raise InputError(
+                "ledger", "path", ".".join(map(str, parts)), "an existing key"
+            ) from None
     return value
 
 

@@ -17,6 +17,7 @@ from .fingerprint import versions
 from .registry import Registry
 from .verdict import Verdict
 
+
 def reference_path(paper: str) -> Path:
     """File with the reference results of one document."""
     return data_path("results", f"{paper}.json")

@@ -11,8 +11,8 @@ from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
 from .result import Assumed, Proof, Result
 from .rules import Rule
-from .sensitivity import Robustness
 from .schema import Erratum, Item, PaperFile, load_paper
+from .sensitivity import Robustness
 from .study import Study
 
 Compute = Callable[[Assumed], Result]
@@ -74,9 +74,7 @@ class Registry:
             raise LedgerError(f"{item_id}: a checker without rules cannot fail")
 
         def register(compute: Compute) -> Compute:
-            self.checkers[item_id] = Checker(
-                compute, tuple(rules), page, change, samples, robust
-            )
+            self.checkers[item_id] = Checker(compute, tuple(rules), page, change, samples, robust)
             return compute
 
         return register

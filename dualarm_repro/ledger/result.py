@@ -45,7 +45,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Proof:
-    """Machine proof of an erratum: a statement, whether the computation confirms it, the numbers."""
+    """Proof of an erratum: a statement, whether the computation confirms it, the numbers."""
 
     statement: str
     holds: bool

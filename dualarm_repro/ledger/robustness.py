@@ -66,7 +66,9 @@ def robustness(
         for point in points
     )
     interval = binomtest(kept, count).proportion_ci(method="wilson")
-    flips = [flip for key, a in varied.items() if (flip := _smallest_flip(key, a, verdict, nominal))]
+    flips = [
+        flip for key, a in varied.items() if (flip := _smallest_flip(key, a, verdict, nominal))
+    ]
     return Robustness(
         holds=kept / count,
         samples=count,
@@ -84,7 +86,7 @@ def _value(assumption: Assumption, share: float) -> Any:
     """The plausible value at a share in [0, 1) of the range or of the choices."""
     if assumption.range is not None:
         low, high = assumption.range
-        return low + share * (high - low)
+        return float(low + share * (high - low))
     return assumption.choices[int(share * len(assumption.choices))]
 
 

@@ -12,6 +12,8 @@ from enum import StrEnum
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from .printed import EXACT, at, leaves, read_number, replaced, rounds_to
 
 
@@ -26,7 +28,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True)
 class Evidence:
-    """The two sides a rule compares: ``obtained`` from the computation, ``printed`` from the item."""
+    """The two sides of a rule: ``obtained`` from the computation, ``printed`` from the item."""
 
     obtained: dict[str, Any]
     printed: Any
@@ -93,7 +95,9 @@ class Rounds(Rule):
 
     def expectation(self, evidence: Evidence) -> str:
         text = f"printed {_plain(at(evidence.printed, self.to))}"
-        return text if self.tolerance is None else f"{text} within {self.tolerance:g} ({self.reason})"
+        return (
+            text if self.tolerance is None else f"{text} within {self.tolerance:g} ({self.reason})"
+        )
 
     def flipped(self, evidence: Evidence) -> Evidence:
         printed = at(evidence.printed, self.to)
@@ -143,7 +147,7 @@ class Bounded(Rule):
 
 @dataclass(frozen=True, kw_only=True)
 class Is(Rule):
-    """A boolean, count or text is exactly what it should be (``value``, or the printed one at ``to``)."""
+    """A boolean, count or text is exactly ``value``, or the printed one at ``to``."""
 
     value: Any = None
     to: str | None = None
@@ -157,6 +161,8 @@ class Is(Rule):
 
     def holds(self, evidence: Evidence) -> bool:
         found, expected = self.found(evidence), self._expected(evidence)
+        if isinstance(found, np.generic):
+            found = found.item()
         if self.to is None:
             return type(found) is type(expected) and found == expected
         return [(path, str(leaf)) for path, leaf in leaves(found)] == list(leaves(expected))

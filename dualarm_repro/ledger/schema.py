@@ -6,7 +6,15 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
 
 from ..datafiles import from_validation, read_yaml
 
@@ -44,7 +52,7 @@ class Kind(StrEnum):
 
 
 class Document(Model):
-    """Bibliographic record; what the source does not print is left out and listed in ``unknown``."""
+    """Bibliographic record; what the source does not print is listed in ``unknown``."""
 
     id: Key
     order: int = Field(default=0, description="place in listings")

@@ -21,9 +21,9 @@ from tqdm import tqdm
 
 from ..datafiles import data_path, data_root
 from ..errors import DataFileError, InputError, LedgerError
+from .drift import differences
 from .files import to_json, write, write_text
 from .fingerprint import hash_files, versions
-from .drift import differences
 
 _CHUNKS = 64
 
@@ -89,14 +89,18 @@ class Study:
         stream = np.random.SeedSequence(self.seed, spawn_key=(index,))
         return dict(self.compute(settings, np.random.default_rng(stream)))
 
-    def run(self, jobs: int = 1, progress: bool = False, scratch: Path | None = None) -> pd.DataFrame:
+    def run(
+        self, jobs: int = 1, progress: bool = False, scratch: Path | None = None
+    ) -> pd.DataFrame:
         """Compute every cell and store the outcome.
 
         Chunks that are finished are kept in ``scratch`` until the study is complete, so that a run
         that was killed goes on where it stopped.
         """
         cells = self.cells()
-        folder = (scratch or Path("_build") / "studies") / f"{self.name}-{hash_text(self.source_hash)}"
+        folder = (
+            scratch or Path("_build") / "studies"
+        ) / f"{self.name}-{hash_text(self.source_hash)}"
         chunks = np.array_split(np.arange(len(cells)), min(_CHUNKS, len(cells)))
         tasks = (delayed(self._chunk)(folder, chunk, cells) for chunk in chunks)
         done = Parallel(n_jobs=jobs, return_as="generator")(tasks)
@@ -150,15 +154,19 @@ class Study:
         """
         self.meta()
         if self.status() == "stale":
-            raise LedgerError(f"{self.name}: stale, its sources changed; run `dualarm study {self.name}`")
+            raise LedgerError(
+                f"{self.name}: stale, its sources changed; run `dualarm study {self.name}`"
+            )
         return pd.read_parquet(self.table_path)
 
     def spot_check(self, count: int, seed: int) -> list[str]:
-        """Recompute ``count`` cells drawn with ``seed`` and say where they differ from the store."""
+        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store."""
         if count < 1:
             raise InputError("spot check", "count", count, "a positive number")
         table, cells = self.load(), self.cells()
-        drawn = np.random.default_rng(seed).choice(len(cells), min(count, len(cells)), replace=False)
+        drawn = np.random.default_rng(seed).choice(
+            len(cells), min(count, len(cells)), replace=False
+        )
         found = []
         for index in sorted(int(k) for k in drawn):
             made = json.loads(to_json(self.cell(index, cells[index])))

@@ -40,7 +40,7 @@ class LinkClearance:
 
     @property
     def nearest(self) -> tuple[tuple[str, str], float]:
-        """The pair that attains the minimum, and the index where it does."""
+        """The pair that attains the minimum and the index where it does; needs a watched pair."""
         row, column = np.unravel_index(self.distance.argmin(), self.distance.shape)
         return self.pairs[column], float(self.index[row])
 
@@ -95,7 +95,9 @@ def require_links_clear(scene: Scene, q: Mapping[str, ArrayLike], field: str = "
     if found.size and found.min() <= 0.0:
         first, second = only.pairs.names[found.argmin()]
         expected = f"{first} and {second} apart, not at a distance of {found.min():.4g} m"
-        raise InputError("scene", field, {name: list(q[name]) for name in q}, expected)
+        raise InputError(
+            "scene", field, {name: np.asarray(q[name]).tolist() for name in q}, expected
+        )
 
 
 def _only(scene: Scene, names: Collection[str]) -> Scene:

@@ -58,11 +58,14 @@ class CoordinatedPlan:
         In the order of planning.
     paths : dict of arm to JointPath
         The same motions over the common index, the steps of the last arm.
+    residuals : dict of arm to float
+        How far the posture planned to misses the point asked for, where that is out of reach [m].
     """
 
     scene: Scene
     plans: dict[str, Plan]
     paths: dict[str, JointPath] = field(repr=False)
+    residuals: dict[str, float] = field(default_factory=dict)
 
     @property
     def master(self) -> Plan:
@@ -101,7 +104,9 @@ class CoordinatedPlan:
     def _motion(self, name: str) -> tuple[PlacedArm, np.ndarray]:
         """An arm and its joints over the index."""
         if name not in self.plans:
-            raise UnknownNameError("CoordinatedPlan", "arm", name, f"one of {', '.join(self.plans)}")
+            raise UnknownNameError(
+                "CoordinatedPlan", "arm", name, f"one of {', '.join(self.plans)}"
+            )
         return self.plans[name].placed, self.paths[name].at(self.index)
 
 

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..arms import Arm
-from ..errors import UnknownNameError
-from .compiled import plan_apf_compiled
+from ..errors import InputError, UnknownNameError
+from .bidirectional_arms import (
+    TwoArmSettings,
+    default_two_arm_settings,
+    one_sided,
+    plan_arms_bidirectional,
+)
 from .link_clearance import require_links_clear
-from .master_slave import CoordinatedPlan, Planner, Task, plan_master_slave
+from .master_slave import CoordinatedPlan, Task, plan_master_slave
 from .settings import APFSettings, Attraction, Repulsion, Settings, Termination, Trap, Update
-from .task_file import load_tasks
+from .task_file import TaskSet, load_tasks
 
 
 @dataclass(frozen=True)
@@ -27,19 +32,20 @@ class Method:
     name, description : str
     settings : type
         What it is set up with; ``settings.model_json_schema()`` describes every field.
-    adapted : callable
-        Settings of the family -> those of this method, so that one file serves all of a family.
     default : callable
         Arm -> settings that suit its size, for a scene that brings none.
-    planner : callable
+    adapted : callable
+        Settings of the family -> those of this method, so that one file serves all of a family.
+    plan : callable
+        Task set and tasks of the arms -> their plans.
     """
 
     name: str
     description: str
     settings: type[Settings]
-    adapted: Callable[[APFSettings], APFSettings]
-    default: Callable[[Arm], APFSettings]
-    planner: Planner
+    default: Callable[[Arm], Settings]
+    adapted: Callable[[Any], Settings]
+    plan: Callable[[TaskSet, dict[str, Task]], CoordinatedPlan]
 
 
 def default_settings(arm: Arm) -> APFSettings:
@@ -76,29 +82,72 @@ def _attraction_only(settings: APFSettings) -> APFSettings:
     return settings.changed(repulsion=None, virtual_point=None)
 
 
-def _apf(name: str, description: str, adapted: Callable[[APFSettings], APFSettings]) -> Method:
-    return Method(name, description, APFSettings, adapted, default_settings, plan_apf_compiled)
+def _in_turn(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
+    return plan_master_slave(
+        given.scene,
+        tasks,
+        master_points=given.master_points,
+        radius=given.radius,
+        leave_out=given.leave_out,
+    )
 
+
+def _from_both_ends(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
+    for field, value in (("master_points", given.master_points), ("radius", given.radius)):
+        if value not in ("joint_points", None):
+            expected = "nothing: by this method the hull of the master repels the slave"
+            raise InputError("task file", field, value, expected)
+    return plan_arms_bidirectional(given.scene, tasks, given.leave_out)
+
+
+_APF = (APFSettings, default_settings)
+_SEARCH = (TwoArmSettings, default_two_arm_settings)
 
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
-        _apf(
+        Method(
             "apf-improved",
             "attraction by position and joints, repulsion of all control points, virtual point",
+            *_APF,
             lambda settings: settings,
+            _in_turn,
         ),
-        _apf(
+        Method(
             "apf-traditional",
             "attraction and repulsion of the end effector, by position only",
+            *_APF,
             _at_the_tool,
+            _in_turn,
         ),
-        _apf(
+        Method(
             "apf-traditional-points",
             "attraction of the end effector by position, repulsion of all control points",
+            *_APF,
             _traditional,
+            _in_turn,
         ),
-        _apf("attraction-only", "attraction alone: obstacles are ignored", _attraction_only),
+        Method(
+            "attraction-only",
+            "attraction alone: obstacles are ignored",
+            *_APF,
+            _attraction_only,
+            _in_turn,
+        ),
+        Method(
+            "apf-bidirectional",
+            "search from both ends in joint space, variable gain and step; hull of the master",
+            *_SEARCH,
+            lambda settings: settings,
+            _from_both_ends,
+        ),
+        Method(
+            "apf-one-sided",
+            "the same search from the start only, with constant gain and step",
+            *_SEARCH,
+            one_sided,
+            _from_both_ends,
+        ),
     )
 }
 
@@ -131,7 +180,8 @@ def plan_file(path: str | Path, name: str) -> CoordinatedPlan:
     DataFileError, InputError
         A wrong file; two bodies that touch at the start; a goal out of reach.
     """
-    chosen, given = method(name), load_tasks(path)
+    chosen = method(name)
+    given = load_tasks(path, chosen.settings)
     arms = {placed.name: placed for placed in given.scene.arms}
     tasks = {
         arm: Task(
@@ -142,11 +192,5 @@ def plan_file(path: str | Path, name: str) -> CoordinatedPlan:
         for arm, task in given.tasks.items()
     }
     require_links_clear(given.scene, {arm: task.start for arm, task in given.tasks.items()})
-    return plan_master_slave(
-        given.scene,
-        tasks,
-        master_points=given.master_points,
-        radius=given.radius,
-        leave_out=given.leave_out,
-        planner=chosen.planner,
-    )
+    residuals = {arm: task.residual for arm, task in given.tasks.items() if task.residual > 0.0}
+    return replace(chosen.plan(given, tasks), residuals=residuals)

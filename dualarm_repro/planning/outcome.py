@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arms import Arm
 from .certificate import certify
 from .plan import Plan
 from .problem import Problem
@@ -34,8 +35,6 @@ class Record:
 def finished(made: Problem, record: Record) -> Plan:
     """The plan of a record, with what is known about its end."""
     last, steps = record.path[-1], len(record.path) - 1
-    arm = made.placed.arm
-    looked_at = {"start": made.start, "goal": made.goal, "path": record.path}
     parts = vars(record) | {"reason": refined(made, record.reason, last, steps)}
     return Plan(
         placed=made.placed,
@@ -44,11 +43,17 @@ def finished(made: Problem, record: Record) -> Plan:
         obstacle_names=made.obstacles.names,
         certificate=None if record.reason is StopReason.REACHED else certify(made, last, steps),
         rescued=rescued(made, record.reason, record.activations),
-        outside_limits=tuple(
-            name for name, q in looked_at.items() if not np.all(arm.within_limits(q, 1e-9))
-        ),
+        outside_limits=leaves_limits(made.placed.arm, made.start, made.goal, record.path),
         **parts,
     )
+
+
+def leaves_limits(
+    arm: Arm, start: np.ndarray, goal: np.ndarray, path: np.ndarray
+) -> tuple[str, ...]:
+    """Which of ``start``, ``goal`` and ``path`` leave the joint limits."""
+    looked_at = {"start": start, "goal": goal, "path": path}
+    return tuple(name for name, q in looked_at.items() if not np.all(arm.within_limits(q, 1e-9)))
 
 
 def refined(made: Problem, reason: StopReason, q: np.ndarray, step: int) -> StopReason:

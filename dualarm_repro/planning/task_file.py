@@ -18,7 +18,15 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    model_validator,
+)
 
 from ..datafiles import from_validation, read_yaml
 from ..errors import DataFileError, InputError
@@ -26,8 +34,8 @@ from ..scene import PlacedArm, Scene, load_scene
 from ..scene.scene_file import Name, Number, Point, Radians
 from .master_slave import MasterPoints
 from .postures import Elbow, Tool, posture
-from .settings import APFSettings, PointSet
-from .tip_goal import tip_posture
+from .settings import APFSettings, PointSet, Settings
+from .tip_goal import REACHED, tip_posture
 
 Joints = list[Radians]
 
@@ -48,12 +56,25 @@ class PostureEntry(_Model):
     reference: Joints | None = Field(
         default=None, description="of several postures take the nearest"
     )
+    best_effort: bool = Field(
+        default=False, description="go as near as the arm can; only without tool"
+    )
 
-    def configuration(self, placed: PlacedArm) -> np.ndarray:
-        """Joint vector of an arm."""
+    @model_validator(mode="after")
+    def _one_way(self) -> PostureEntry:
+        if self.best_effort and self.tool is not None:
+            raise ValueError("best_effort without tool")
+        return self
+
+    def configuration(self, placed: PlacedArm) -> tuple[np.ndarray, float]:
+        """Joint vector of an arm, and by how much it misses the position [m]."""
         if self.tool is None:
             near = np.zeros(placed.arm.nq) if self.reference is None else self.reference
-            return tip_posture(placed, self.position, near).q
+            found = tip_posture(placed, self.position, near, best_effort=self.best_effort)
+            return found.q, found.residual if found.residual > REACHED else 0.0
+        return self._with_tool(placed), 0.0
+
+    def _with_tool(self, placed: PlacedArm) -> np.ndarray:
         return posture(
             placed,
             self.position,
@@ -97,10 +118,11 @@ class TaskFile(_Model):
 
 @dataclass(frozen=True, eq=False)
 class ArmTask:
-    """Start and goal of one arm (nq,) [rad]."""
+    """Start and goal of one arm (nq,) [rad], and by how much the goal misses its point [m]."""
 
     start: np.ndarray
     goal: np.ndarray
+    residual: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,14 +131,19 @@ class TaskSet:
 
     scene: Scene
     tasks: dict[str, ArmTask]
-    settings: APFSettings | None
+    settings: Settings | None
     leave_out: tuple[str, ...]
     master_points: MasterPoints
     radius: float | None
 
 
-def load_tasks(path: str | Path) -> TaskSet:
+def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet:
     """Read a task file, or a scene file whose arms have start and goal.
+
+    Parameters
+    ----------
+    kind : type
+        Of the settings.
 
     Raises
     ------
@@ -140,7 +167,7 @@ def load_tasks(path: str | Path) -> TaskSet:
     return TaskSet(
         scene,
         {name: _task(path, scene, name, entry) for name, entry in file.tasks.items()},
-        _settings(path, file.settings),
+        _settings(path, kind, file.settings),
         tuple(file.leave_out),
         file.master_points,
         file.radius,
@@ -151,7 +178,7 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
     placed = next((placed for placed in scene.arms if placed.name == name), None)
     if placed is None:
         raise DataFileError(path, "tasks", name, f"one of {', '.join(scene.columns)}")
-    ends = {}
+    ends, missed = {}, 0.0
     for field in ("start", "goal"):
         value = getattr(entry, field)
         value = getattr(placed, field) if value is None else value
@@ -159,17 +186,19 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
             expected = "a joint vector or a position, here or in the scene file"
             raise DataFileError(path, f"tasks.{name}.{field}", None, expected)
         try:
-            found = value.configuration(placed) if isinstance(value, PostureEntry) else value
+            found = value
+            if isinstance(value, PostureEntry):
+                found, missed = value.configuration(placed)
             ends[field] = placed.arm.configurations(found)
         except InputError as error:
             place = f"tasks.{name}.{field}: {error.field}"
             raise DataFileError(path, place, error.value, error.expected) from None
-    return ArmTask(**ends)
+    return ArmTask(**ends, residual=missed)
 
 
-def _settings(path: Path, values: dict[str, Any] | None) -> APFSettings | None:
+def _settings(path: Path, kind: type[Settings], values: dict[str, Any] | None) -> Settings | None:
     try:
-        return None if values is None else APFSettings(**values)
+        return None if values is None else kind(**values)
     except InputError as error:
         field = f"settings: {error.source}.{error.field}"
         raise DataFileError(path, field, error.value, error.expected) from None

@@ -13,13 +13,13 @@ import numpy as np
 from ..errors import InputError
 from ..scene.bodies import PlacedArm
 from ..scene.moving import JointPath
-from .hull_obstacle import HullTrack, JointCircles, circles_on, hull_track
+from .hull_obstacle import NO_HULL, HullTrack, JointCircles, circles_on, hull_track
 from .search_plan import SearchPlan
 
 
-def shares(searches: int, spread: int) -> np.ndarray:
+def shares(searches: int, spread: int, end: float = 0.5) -> np.ndarray:
     """Share of the master's path that the forward half sees, (searches + 1,), from 0 to at most
-    1/2.
+    ``end``, 1/(2 spread) a search; a search from one side only sees all of it, ``end`` = 1.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def shares(searches: int, spread: int) -> np.ndarray:
     """
     if spread < 1:
         raise InputError("shares", "spread", spread, "a positive number of searches")
-    return 0.5 * np.minimum(np.arange(searches + 1) / spread, 1.0)
+    return np.minimum(0.5 * np.arange(searches + 1) / spread, end)
 
 
 def along_path(path: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -37,9 +37,12 @@ def along_path(path: np.ndarray, share: np.ndarray) -> np.ndarray:
 
 
 def hull_tracks(
-    placed: PlacedArm, path: np.ndarray, circles: JointCircles, spread: int
+    placed: PlacedArm, path: np.ndarray, circles: JointCircles, spread: int, two_sided: bool = True
 ) -> tuple[HullTrack, HullTrack]:
     """The moving hull as the forward and the backward half of a slave meet it."""
+    if not two_sided:
+        poses = along_path(path, shares(2 * spread, spread, 1.0))
+        return hull_track(circles_on(placed, circles, poses)), NO_HULL
     forward = shares(spread, spread)
     poses = along_path(path, np.concatenate([forward, 1.0 - forward[:-1]]))
     track = hull_track(circles_on(placed, circles, poses))
@@ -52,8 +55,10 @@ def hull_tracks(
 
 def time_map(slave: SearchPlan, spread: int) -> np.ndarray:
     """Share of the master's path at every sample of the slave's path (N,), never falling."""
+    if len(slave.record.paths) == 1:
+        return shares(slave.searches, spread, 1.0)
     seen = shares(slave.searches, spread)
-    return np.concatenate([seen, 1.0 - seen[::-1]]) if len(slave.record.paths) == 2 else seen
+    return np.concatenate([seen, 1.0 - seen[::-1]])
 
 
 def replay(

@@ -15,6 +15,9 @@ from .compiled import kernel
 from .segments import CORES_MEET, ROUNDING, clamped, lowest
 from .vectors import along, cross, dot, scaled
 
+# Below this distance [m] the root of the slope may err by more than 1e-10 in the distance.
+NEAR_CONTACT = 1e-6
+
 
 @kernel
 def excess(p, h):
@@ -51,6 +54,27 @@ def closest_parameter(a, u, h):
     if flat_low <= flat_high:
         return 0.5 * (flat_low + flat_high)
     return low + (high - low) * slope_low / (slope_low - slope_high)
+
+
+@kernel
+def nearest_point(a, u, h):
+    """Point of a + [0, 1] u nearest to the box, its excess and distance.
+
+    Near contact the slope drowns in rounding, while the distances at the breakpoints stay exact.
+    """
+    p = along(a, closest_parameter(a, u, h), u)
+    e = excess(p, h)
+    distance = dot(e, e) ** 0.5
+    if 0.0 < distance < NEAR_CONTACT:
+        for k in range(8):
+            i = k // 2
+            t = float(k % 2) if i == 3 else ((h[i] if k % 2 else -h[i]) - a[i]) / u[i]
+            if 0.0 <= t <= 1.0:
+                other = along(a, t, u)
+                f = excess(other, h)
+                if dot(f, f) ** 0.5 < distance - ROUNDING:
+                    p, e, distance = other, f, dot(f, f) ** 0.5
+    return p, e, distance
 
 
 @kernel
@@ -102,7 +126,7 @@ def deepest_parameter(a, u, h, direction, axis):
         return clamped((edge - a[i] - depth * direction[i]) / u[i], 0.0, 1.0)
     low, high = 0.0, 1.0  # the part that leaves through this face
     for i in range(3):
-        if i != axis and u[i] != 0.0:
+        if i != axis and abs(u[i]) > CORES_MEET:
             t1, t2 = (-h[i] - a[i]) / u[i], (h[i] - a[i]) / u[i]
             low, high = max(low, min(t1, t2)), min(high, max(t1, t2))
     return lowest(low, high, dot(direction, u))
@@ -118,9 +142,7 @@ def segment_box(a, u, h):
     -------
     distance, point_segment, point_box, normal
     """
-    p = along(a, closest_parameter(a, u, h), u)
-    e = excess(p, h)
-    distance = dot(e, e) ** 0.5
+    p, e, distance = nearest_point(a, u, h)
     if distance > CORES_MEET:
         return distance, p, along(p, -1.0, e), scaled(-1.0 / distance, e)
     depth, direction, axis = shortest_exit(a, u, h)
@@ -131,6 +153,5 @@ def segment_box(a, u, h):
 @kernel
 def segment_box_distance(a, u, h):
     """The distance of :func:`segment_box` alone."""
-    e = excess(along(a, closest_parameter(a, u, h), u), h)
-    distance = dot(e, e) ** 0.5
+    distance = nearest_point(a, u, h)[2]
     return distance if distance > CORES_MEET else -shortest_exit(a, u, h)[0]

@@ -46,15 +46,15 @@ def highest_plane(a, u, polytope):
             height, normal, face = lower, n, f
     for e in range(len(polytope.edges)):
         n1, n2 = vector(polytope.normals[e, 0]), vector(polytope.normals[e, 1])
-        if dot(n1, u) * dot(n2, u) < 0.0:
+        c1, c2 = dot(n1, u), dot(n2, u)
+        if c1 * c2 < 0.0:
+            # A positive combination supports the polytope at the edge however short it is, so that
+            # rounding cannot pretend a gap; edge x u is noise where the two are parallel.
+            m = along(scaled(abs(c2), n1), abs(c1), n2)
+            m = scaled(1.0 / dot(m, m) ** 0.5, m)
             b = vector(polytope.vertices[polytope.edges[e, 0]])
-            m = cross(minus(vector(polytope.vertices[polytope.edges[e, 1]]), b), u)
-            length = dot(m, m) ** 0.5
-            if length == 0.0:
-                continue
-            m = scaled((1.0 if dot(m, along(n1, 1.0, n2)) > 0.0 else -1.0) / length, m)
             lower = dot(m, minus(a, b)) + min(dot(m, u), 0.0)
-            if lower > height + ROUNDING:
+            if lower > height + (ROUNDING if edge < 0 else 0.0):
                 height, normal, face, edge = lower, m, -1, e
     return height, normal, face, edge
 
@@ -76,10 +76,10 @@ def nearest_points(a, u, polytope):
         for k in range(2):
             end = along(a, float(k), u)
             height = dot(n, end) + polytope.planes[f, 3]
-            if 0.0 <= height < distance:
+            if -ROUNDING < height < distance:
                 foot = along(end, -height, n)
                 if in_triangle(foot, n, polytope.corners[f], polytope.vertices):
-                    distance, p, q = height, end, foot
+                    distance, p, q = abs(height), end, foot
     return p, q
 
 

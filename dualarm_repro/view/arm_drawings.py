@@ -17,7 +17,8 @@ _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 1}
 
 
 def dimension_drawing(
-    outline: np.ndarray, dimensions: Sequence[tuple[str, np.ndarray, np.ndarray, tuple[float, float]]]
+    outline: np.ndarray,
+    dimensions: Sequence[tuple[str, np.ndarray, np.ndarray, tuple[float, float]]],
 ) -> Any:
     """Side view of an arm in its vertical plane with dimensions in millimetres.
 
@@ -42,7 +43,7 @@ def dimension_drawing(
             place = 0.5 * (a + b) + 0.5 * np.asarray(offset)
             ax.text(*place, text, ha="center", va="center", bbox=_PAPER)
         ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal", title="dimensions in mm")
-        ax.margins(0.12)
+        ax.margins(0.3, 0.12)
     return figure
 
 

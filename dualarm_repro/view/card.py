@@ -20,7 +20,8 @@ def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> str:
     import matplotlib.pyplot as plt
 
     buffer = BytesIO()
-    figure.savefig(buffer, format="png", dpi=dpi)
+    # Labels of 3-D axes stick out of the space that the layout keeps.
+    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches="tight")
     plt.close(figure)
     data = b64encode(buffer.getvalue()).decode()
     return (
@@ -31,9 +32,10 @@ def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> str:
 
 def head_html(made: dict[str, Any]) -> str:
     """Id, verdict, title and place of a record on one line."""
+    title = f"{made['title']} ({made['kind']}, {made['place']})"
     return (
         f'<p class="ledger-head"><code>{made["id"]}</code> {badge(made["verdict"])} '
-        f"<span>{escape(made['title'])} ({escape(made['kind'])}, {escape(made['place'])})</span></p>"
+        f"<span>{escape(title)}</span></p>"
     )
 
 
@@ -42,7 +44,7 @@ def card_html(made: dict[str, Any]) -> str:
     parts = []
     if made["pending"]:
         parts.append(f"<p>Not attempted: {escape(made['pending'])}</p>")
-    if made["change"]:
+    if made["change"] and made["verdict"] == "adapted":
         parts.append(f"<p>Changed input: {escape(made['change'])}</p>")
     if made["checks"]:
         parts.append(_checks(made["checks"]))
@@ -63,7 +65,12 @@ def card_figure(made: dict[str, Any]) -> Any:
     import matplotlib.pyplot as plt
 
     rows = [
-        [check["label"], check["expected"], short(check["obtained"]), "yes" if check["holds"] else "no"]
+        [
+            check["label"],
+            check["expected"],
+            short(check["obtained"]),
+            "yes" if check["holds"] else "no",
+        ]
         for check in made["checks"]
     ] or [[made["pending"] or "", "", "", ""]]
     with house_style():
@@ -111,7 +118,8 @@ def robustness_text(found: dict[str, Any]) -> str:
 def _checks(checks: list[dict[str, Any]]) -> str:
     rows = "".join(
         f"<tr><td>{escape(check['label'])}</td><td>{escape(check['expected'])}</td>"
-        f"<td>{escape(short(check['obtained']))}</td><td>{'yes' if check['holds'] else 'no'}</td></tr>"
+        f"<td>{escape(short(check['obtained']))}</td>"
+        f"<td>{'yes' if check['holds'] else 'no'}</td></tr>"
         for check in checks
     )
     head = "<tr><th>Statement</th><th>Expected</th><th>Obtained</th><th>Holds</th></tr>"

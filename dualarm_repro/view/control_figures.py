@@ -41,7 +41,7 @@ def comparison_figure(
             ax.locator_params(nbins=4)
             ax.view_init(elev=48, azim=-75)
             ax.set_aspect("equal")
-            ax.set_box_aspect(None, zoom=1.15)
+            ax.set_box_aspect(None, zoom=1.0)
         ax = figure.add_subplot(grid[1, :])
         for (name, (times, distances)), color in zip(curves.items(), (RED, BLUE), strict=True):
             ax.plot(times, 1e3 * distances, color=color, label=name)
@@ -69,7 +69,7 @@ def damper_figure(
     bound: np.ndarray,
     ranges: tuple[float, float],
 ) -> Any:
-    """Pair with least room over time: distance between two ranges, approach below its bound, rows."""
+    """Smallest distance between two ranges, approach of the tightest pair and its bound, rows."""
     with house_style():
         figure, axes = plt.subplots(3, 1, figsize=(8.0, 6.4), sharex=True, height_ratios=(2, 2, 1))
         axes[0].plot(times, 1e3 * distance, color=BLUE)

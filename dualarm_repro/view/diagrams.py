@@ -17,7 +17,7 @@ def flow_chart(steps: Sequence[tuple[str, str, str]]) -> Any:
     parts = list(dict.fromkeys(part for part, _, _ in steps))
     deepest = max(sum(step[0] == part for step in steps) for part in parts)
     with house_style():
-        figure, ax = plt.subplots(figsize=(4.6 * len(parts), 1.15 * deepest + 0.6))
+        figure, ax = plt.subplots(figsize=(4.0 * len(parts), 1.15 * deepest + 0.6))
         ax.axis("off")
         ends = []
         for column, part in enumerate(parts):
@@ -27,7 +27,7 @@ def flow_chart(steps: Sequence[tuple[str, str, str]]) -> Any:
             for row, (_, text, code) in enumerate(own):
                 _box(ax, x, -row, f"{text}\n", color)
                 ax.text(
-                    x, -row - 0.14, code, ha="center", va="center", family="monospace", fontsize=7
+                    x, -row - 0.14, code, ha="center", va="center", family="monospace", fontsize=8
                 )
                 if row:
                     _arrow(ax, (x, 1 - row - 0.32), (x, -row + 0.32))
@@ -48,7 +48,7 @@ def block_diagram(numbers: Mapping[str, str], program: Sequence[str]) -> Any:
         ax.add_patch(plt.Rectangle((0.95, -1.5), 1.45, 2.05, fill=False, color=GREEN, lw=1.2))
         ax.text(1.68, 0.36, f"memory {numbers['memory']}", ha="center", color=GREEN)
         lines = "\n".join(f"{k}. {text}" for k, text in enumerate(program, start=1))
-        ax.text(1.0, -0.55, f"program {numbers['program']}\n\n{lines}", va="center", fontsize=7.5)
+        ax.text(1.0, -0.55, f"program {numbers['program']}\n\n{lines}", va="center", fontsize=9)
         _arrow(ax, (0.95, 0.0), (0.66, 0.0))
         ax.set(xlim=(-0.85, 2.6), ylim=(-1.7, 0.8))
     return figure
@@ -57,7 +57,7 @@ def block_diagram(numbers: Mapping[str, str], program: Sequence[str]) -> Any:
 def _box(ax: Any, x: float, y: float, text: str, color: str) -> None:
     style = {"boxstyle": "round,pad=0.02", "fc": "white", "ec": color, "lw": 1.4}
     ax.add_patch(plt.matplotlib.patches.FancyBboxPatch((x - 0.64, y - 0.3), 1.28, 0.6, **style))
-    ax.text(x, y, text, ha="center", va="center", fontsize=9)
+    ax.text(x, y, text, ha="center", va="center", fontsize=11)
 
 
 def _arrow(ax: Any, start: tuple[float, float], end: tuple[float, float]) -> None:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ..planning.master_slave import CoordinatedPlan
+from ..planning.methods import METHODS, plan_file
 from ..scene import Box, Sphere
+from .page import Page
 from .scene3d import Scene3D
 from .style import PALETTE
 
@@ -29,6 +33,7 @@ def plan_summary(plan: CoordinatedPlan) -> dict[str, Any]:
                 "joint_length_rad": one.length,
                 "tcp_length_m": one.tcp_length,
                 "outside_limits": list(one.outside_limits),
+                "out_of_reach_m": plan.residuals.get(name, 0.0),
                 "certificate": asdict(one.certificate) if one.certificate else None,
             }
             for name, one in plan.plans.items()
@@ -40,6 +45,26 @@ def plan_summary(plan: CoordinatedPlan) -> dict[str, Any]:
             "collision_free": links.minimum > 0.0,
         },
     }
+
+
+def compare_methods(path: str | Path) -> pd.DataFrame:
+    """Outcome of every method on a task file: arms that arrive, and how close whole links come."""
+    rows = {}
+    for name in METHODS:
+        plan = plan_file(path, name)
+        links = plan.links(CHECK_STEP)
+        rows[name] = {
+            "arrive": ", ".join(arm for arm, one in plan.plans.items() if one.reached) or "none",
+            "steps": max(one.steps for one in plan.plans.values()),
+            "smallest distance [m]": round(links.minimum, 4),
+            "between": " - ".join(links.nearest[0]) if links.pairs else "",
+        }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
+
+
+def plan_page(plan: CoordinatedPlan, title: str) -> Page:
+    """The motion of all arms for a page of the book."""
+    return Page(plan_scene(plan, title).page_html())
 
 
 def plan_scene(plan: CoordinatedPlan, title: str) -> Scene3D:

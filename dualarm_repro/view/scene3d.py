@@ -55,7 +55,7 @@ class Scene3D:
         color: str = "#0072B2",
         opacity: float = 1.0,
     ) -> None:
-        """Draw an arm at a configuration: one node per joint, one capsule per collision geometry."""
+        """Draw an arm at a configuration: a node per joint, a capsule per collision geometry."""
         material = _material(color, opacity)
         node = self._vis[name]
         node.set_transform((placement or pin.SE3.Identity()).homogeneous)
@@ -68,11 +68,15 @@ class Scene3D:
             part["tube"].set_transform(_Y_TO_Z)
             for side, offset in (("lower", -0.5), ("upper", 0.5)):
                 part[side].set_object(mg.Sphere(capsule.radius), material)
-                part[side].set_transform(mt.translation_matrix(np.array([0.0, 0.0, offset * length])))
+                part[side].set_transform(
+                    mt.translation_matrix(np.array([0.0, 0.0, offset * length]))
+                )
         for joint, pose in _joint_poses(arm, q).items():
             node[f"joint{joint}"].set_transform(pose)
 
-    def animate(self, arms: dict[str, tuple[Arm, np.ndarray]], fps: int = 20, every: int = 3) -> None:
+    def animate(
+        self, arms: dict[str, tuple[Arm, np.ndarray]], fps: int = 20, every: int = 3
+    ) -> None:
         """Move arms drawn before along their paths, played in a loop with a time slider.
 
         Parameters
@@ -142,9 +146,7 @@ def _number(color: str) -> int:
 
 
 def _material(color: str, opacity: float) -> mg.MeshLambertMaterial:
-    return mg.MeshLambertMaterial(
-        color=_number(color), opacity=opacity, transparent=opacity < 1.0
-    )
+    return mg.MeshLambertMaterial(color=_number(color), opacity=opacity, transparent=opacity < 1.0)
 
 
 def _joint_poses(arm: Arm, q: np.ndarray) -> dict[int, np.ndarray]:

@@ -19,7 +19,7 @@ def studies_page(registry: Registry, cells: int = CELLS, seed: int = SEED) -> Pa
     Raises
     ------
     LedgerError
-        A stored value differs from the recomputed one, or a study is stale, so that the build fails.
+        A stored value differs from the recomputed one, or a study is stale.
     """
     rows = []
     for name, study in registry.studies.items():
@@ -33,4 +33,6 @@ def studies_page(registry: Registry, cells: int = CELLS, seed: int = SEED) -> Pa
             f"<td>{min(cells, meta['cells'])} recomputed, equal</td></tr>"
         )
     head = "<tr><th>study</th><th>question</th><th>cells</th><th>seed</th><th>spot check</th></tr>"
-    return Page(f'<div class="ledger-scroll"><table id="studies">{head}{"".join(rows)}</table></div>')
+    return Page(
+        f'<div class="ledger-scroll"><table id="studies">{head}{"".join(rows)}</table></div>'
+    )

@@ -54,7 +54,7 @@ class _JobScene(Scene3D):
         heights: np.ndarray,
         every: int,
     ) -> None:
-        super().__init__(title, camera=(3.2, -3.2, 2.6))
+        super().__init__(title, camera=(0.7, -3.2, 2.0))
         for k, (name, color) in enumerate(zip(ROBOTS, ROBOT_COLORS, strict=True)):
             self.add_arm(name, cell.arms[k], q[k, 0], pin.SE3(cell.bases[k]), color)
             bar = self._vis[f"{name} bar"]

@@ -207,7 +207,12 @@ LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, s
 
 
 def evolve(
-    fitness: Fitness, box: np.ndarray, settings: Settings, rng: np.random.Generator
+    fitness: Fitness,
+    box: np.ndarray,
+    settings: Settings,
+    rng: np.random.Generator,
+    *,
+    must_find: bool = True,
 ) -> Evolution:
     """Maximise a fitness over a box.
 
@@ -217,11 +222,13 @@ def evolve(
         (P, n) -> (P,), positive where feasible, 0 elsewhere.
     box : ndarray (n, 2)
         Lower and upper bounds.
+    must_find : bool
+        Raise if no individual was feasible; without, ``found`` of the outcome tells.
 
     Raises
     ------
     InputError
-        A bound that is not finite, or lower bounds not below upper ones.
+        A bound that is not finite, lower bounds not below upper ones, or nothing feasible.
     """
     low, high = checked_box(box).T
     search = Search(fitness, low, high, settings, rng)
@@ -230,6 +237,11 @@ def evolve(
         for act in LOOP:
             if act(search):
                 break
+    if must_find and search.values[0] <= 0:
+        expected = (
+            f"a box with a feasible position: none of the {search.evaluations} evaluated ones is"
+        )
+        raise InputError("search", "box", np.asarray(box).tolist(), expected)
     return Evolution(
         search.individuals[0].copy(),
         float(search.values[0]),

@@ -64,7 +64,7 @@ def genetic(
     elite, *_ = Settings().counts
     generations = max(1, (budget - _POPULATION) // (_POPULATION - elite))
     settings = Settings(population=_POPULATION, generations=generations, mutation=mutation)
-    found = evolve(fitness, box, settings, np.random.default_rng(seed))
+    found = evolve(fitness, box, settings, np.random.default_rng(seed), must_find=False)
     return Optimum(found.best, found.fitness, found.evaluations)
 
 

@@ -201,11 +201,22 @@ def test_document_pages(registry, monkeypatch):
         return texts | {"id": item_id, "paper": item_id.partition(".")[0], "kind": item.kind,
                         "title": item.title, "place": item.place}  # fmt: skip
 
+    def bare_erratum(registry, erratum_id):
+        proof = (
+            {"statement": "s", "holds": True, "values": {}}
+            if erratum_id in registry.proofs
+            else None
+        )
+        return registry.errata[erratum_id].model_dump() | {"id": erratum_id, "proof": proof}
+
     monkeypatch.setattr(item_table, "record", bare_record)
+    monkeypatch.setattr(document, "erratum_record", bare_erratum)
     for name, paper in registry.papers.items():
         assert document.document_page(registry, name).html.count("<dt>") >= 3
         assert document.items_page(registry, name).html.count("<tr data-") == len(paper.items)
-        assert document.errata_page(registry, name).html.count("<li id=") == len(paper.errata)
+        errata = document.errata_page(registry, name).html
+        assert errata.count("<li id=") == len(paper.errata)
+        assert errata.find("No machine proof") > errata.rfind("<b>Proved</b>")
         assert paper.document.title[:20] in document.bibliography_page(registry).html
     table = document.items_page(registry, "xue").html
     assert '"../xue/kinematics.html#xue.tab01"' in table

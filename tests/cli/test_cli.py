@@ -40,7 +40,9 @@ def records():
 def test_list_has_every_item(records):
     assert len(records) == len({made["id"] for made in records}) == 197
     contract = {"id", "paper", "kind", "title", "printed", "obtained", "verdict"}
-    assert all(contract | {"assumptions", "errata", "robustness"} <= made.keys() for made in records)
+    assert all(
+        contract | {"assumptions", "errata", "robustness"} <= made.keys() for made in records
+    )
 
 
 def test_xue_part_1_is_attempted(records):
@@ -68,7 +70,7 @@ def test_show(dualarm):
 
 
 def test_run_writes_files(dualarm, tmp_path):
-    code, out, _ = dualarm("run", "xue.fig03", "xue.eq01", "--out", tmp_path)
+    code, _, _ = dualarm("run", "xue.fig03", "xue.eq01", "--out", tmp_path)
     assert code == 0
     expected = [f"xue.eq01.{s}" for s in ("csv", "json", "png", "svg")]
     expected += [f"xue.fig03.{s}" for s in ("csv", "html", "json", "png", "svg")]

@@ -65,7 +65,9 @@ def test_failed_write_leaves_nothing(tmp_path):
 def test_json_has_no_nan():
     import numpy as np
 
-    assert json.loads(to_json({"a": np.float64("nan"), "b": np.arange(2), "c": np.bool_(True)})) == {
+    assert json.loads(
+        to_json({"a": np.float64("nan"), "b": np.arange(2), "c": np.bool_(True)})
+    ) == {
         "a": None,
         "b": [0, 1],
         "c": True,

@@ -1,5 +1,6 @@
 """Every rule can hold, can fail, and knows how to be flipped."""
 
+import numpy as np
 import pytest
 
 from dualarm_repro.ledger import Adopts, Bounded, Is, NeedsPrinted, Role, Rounds, Verdict
@@ -85,3 +86,10 @@ def test_decision_table(rules, options, verdict):
 def test_no_rule_no_verdict():
     with pytest.raises(ValueError, match="at least one"):
         decide([], Evidence({}, None))
+
+
+@pytest.mark.parametrize(("obtained", "expected"), [(np.True_, True), (np.int64(3), 3)])
+def test_numpy_scalars_count_as_what_they_are(obtained, expected):
+    rule = Is(key="x", label="x", value=expected)
+    assert rule.holds(Evidence({"x": obtained}, {}))
+    assert not rule.holds(Evidence({"x": not obtained}, {}))

@@ -6,6 +6,20 @@ import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
+from window_scene import (
+    BY_POSITION,
+    CENTRE,
+    FIXED,
+    GOAL,
+    IMPROVED,
+    MASTER,
+    SLAVE,
+    START,
+    TRADITIONAL,
+    around,
+    virtual,
+    window,
+)
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.planning import (
@@ -23,21 +37,6 @@ from dualarm_repro.planning.control_points import end_effector
 from dualarm_repro.planning.problem import problem
 from dualarm_repro.scene import MovingShape, PlacedArm, PosePath, Scene, Sphere
 
-from window_scene import (
-    BY_POSITION,
-    CENTRE,
-    FIXED,
-    GOAL,
-    IMPROVED,
-    MASTER,
-    SLAVE,
-    START,
-    TRADITIONAL,
-    around,
-    virtual,
-    window,
-)
-
 QUICK = Trap(rule="block_means", steps=20, threshold=1e-3)
 joints = st.lists(st.floats(-1.5, 1.5), min_size=6, max_size=6).map(np.array)
 NOTHING = obstacles_of(Scene([SLAVE]))
@@ -45,7 +44,8 @@ NOTHING = obstacles_of(Scene([SLAVE]))
 
 def test_the_improved_field_passes_the_window_and_the_traditional_one_is_trapped():
     arrived = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED)
-    assert arrived.reached and arrived.certificate is None
+    assert arrived.reached
+    assert arrived.certificate is None
     assert np.abs(arrived.path[-1] - GOAL).max() <= 0.02
     assert arrived.clearance.min() > 0.2
     trapped = plan_apf_compiled(SLAVE, START, GOAL, around(), TRADITIONAL)
@@ -77,11 +77,16 @@ def test_the_joint_term_alone_always_leads_home(start, goal):
 
 
 def test_creases_of_the_nearest_distance_fake_a_trap():
-    """A goal straight behind two bars that touch: the descent on the nearest one halts on the crease
-    with a large gradient, where the sum rests in a true minimum or passes."""
+    """A goal behind two bars: the descent on the nearest one halts on the crease between them with
+    a large gradient, where the sum rests in a true minimum or passes."""
     arm = PlacedArm("arm", load_arm("es165d"))
     X = end_effector(arm, np.zeros(6))
-    bars = {"window": (Sphere(X + [0.0, -0.4, 0.25], 0.1), Sphere(X + [0.0, -0.4, -0.25], 0.1))}
+    bars = {
+        "window": (
+            Sphere(X + np.array([0.0, -0.4, 0.25]), 0.1),
+            Sphere(X + np.array([0.0, -0.4, -0.25]), 0.1),
+        )
+    }
     obstacles = obstacles_of(Scene([arm], bars))
     goal = np.array([-0.5, 0.0, 0.0, 0.0, 0.0, 0.0])
     base = TRADITIONAL.changed(attraction=Attraction(gain=30.0))
@@ -101,7 +106,7 @@ def test_creases_of_the_nearest_distance_fake_a_trap():
 def test_a_goal_within_the_influence_of_an_obstacle_is_not_reached():
     """The arm rests beside its goal; a virtual point would only carry it through the tolerance."""
     goal_point = end_effector(SLAVE, GOAL)
-    obstacles = around(ball=Sphere(goal_point + [0.0, 0.0, -0.3], 0.1))
+    obstacles = around(ball=Sphere(goal_point + np.array([0.0, 0.0, -0.3]), 0.1))
     settings = IMPROVED.changed(virtual_point=None)
     plan = plan_apf_compiled(SLAVE, START, GOAL, obstacles, settings)
     assert plan.reason is StopReason.NEAR_OBSTACLE
@@ -118,6 +123,12 @@ def test_a_goal_within_the_influence_of_an_obstacle_is_not_reached():
     assert far.reason is StopReason.TRAPPED
 
 
+def test_a_trap_is_a_trap_however_near_the_goal_if_nothing_repels_there():
+    end = TRADITIONAL.termination.changed(near_goal=1e6)
+    plan = plan_apf_compiled(SLAVE, START, GOAL, around(), TRADITIONAL.changed(termination=end))
+    assert plan.reason is StopReason.TRAPPED
+
+
 def test_a_virtual_point_that_always_acts_moves_the_rest_of_the_tool():
     """3 (X - X_g) + 2 (X - X_v) = 0 at X = (3 X_g + 2 X_v)/5."""
     settings = BY_POSITION.changed(
@@ -127,12 +138,13 @@ def test_a_virtual_point_that_always_acts_moves_the_rest_of_the_tool():
     assert plan.reason is StopReason.TRAPPED
     expected = (3 * end_effector(SLAVE, GOAL) + 2 * np.array(CENTRE)) / 5
     assert np.abs(plan.tcp[-1] - expected).max() < 1e-3
-    assert plan.active.all() and (plan.activations, plan.rescued) == (1, False)
+    assert plan.active.all()
+    assert (plan.activations, plan.rescued) == (1, False)
 
 
 @pytest.mark.parametrize("switching", ["on_when_stuck", "replaces_goal"])
 def test_a_virtual_point_in_a_trap(switching):
-    """It is switched on at the trap, off near the point or in time, and whether it helped counts."""
+    """Switched on at the trap, off near the point or in time, and counted if it helped."""
     point = virtual(switching=switching, max_activations=3).virtual_point
     settings = TRADITIONAL.changed(virtual_point=point)
     plan = plan_apf_compiled(SLAVE, START, GOAL, around(), settings)
@@ -144,13 +156,16 @@ def test_a_virtual_point_in_a_trap(switching):
     assert distance <= 0.1 if plan.arrivals else off - on == 400
     assert plan.arrivals == (1 if switching == "replaces_goal" else 0)
     assert (plan.activations, plan.rescued, plan.reached) == (1, True, True)
-    assert plan.virtual[plan.active].min() > 0 and not plan.virtual[~plan.active].any()
+    assert plan.virtual[plan.active].min() > 0
+    assert not plan.virtual[~plan.active].any()
 
 
 def test_a_virtual_point_from_the_start_is_passed_and_left():
     settings = virtual(switching="from_start", release_distance=0.3)
     plan = plan_apf_compiled(SLAVE, START, GOAL, around(), settings)
-    assert plan.reached and plan.active[0] and not plan.active[-1]
+    assert plan.reached
+    assert plan.active[0]
+    assert not plan.active[-1]
     assert (plan.activations, plan.arrivals, plan.rescued) == (1, 1, False)
     assert np.linalg.norm(plan.tcp - np.array(CENTRE), axis=1).min() <= 0.3
 
@@ -158,12 +173,16 @@ def test_a_virtual_point_from_the_start_is_passed_and_left():
 def test_being_at_the_goal_does_not_count_while_a_virtual_point_is_yet_to_be_left():
     """Else the pull of the point could carry a trapped arm through the tolerance."""
     without = plan_apf_compiled(SLAVE, GOAL, GOAL, around(), IMPROVED)
-    assert without.reached and without.steps == 0
+    assert without.reached
+    assert without.steps == 0
     settings = virtual(switching="from_start", max_steps=60)
     plan = plan_apf_compiled(SLAVE, GOAL, GOAL, around(), settings)
-    assert plan.reached and plan.steps > 60
+    assert plan.reached
+    assert plan.steps > 60
     away = np.abs(plan.path - GOAL).max(axis=1)
-    assert away[0] == 0.0 and away.max() > 0.02 and away[-1] <= 0.02
+    assert away[0] == 0.0
+    assert away.max() > 0.02
+    assert away[-1] <= 0.02
 
 
 def test_a_step_limit_is_kept_and_named():
@@ -194,9 +213,7 @@ def test_potential_stall_finds_the_same_trap():
         step_limit=3000,
         trap=Trap(rule="potential_stall", steps=10, threshold=1e-6),
     )
-    plan = plan_apf_compiled(
-        SLAVE, START, GOAL, around(), TRADITIONAL.changed(termination=stall)
-    )
+    plan = plan_apf_compiled(SLAVE, START, GOAL, around(), TRADITIONAL.changed(termination=stall))
     other = plan_apf_compiled(SLAVE, START, GOAL, around(), TRADITIONAL)
     assert plan.reason is StopReason.TRAPPED
     assert np.linalg.norm(plan.tcp[-1] - other.tcp[-1]) < 0.01
@@ -206,19 +223,24 @@ def test_goal_outside_the_limits_is_reported_and_the_path_kept_inside_on_demand(
     start = np.array([0.0, -1.2, 0.0, 0.0, 0.0, 0.0])
     beyond = np.array([0.0, 0.3, 0.0, 0.0, 0.0, 0.0])
     plan = plan_apf_compiled(MASTER, start, beyond, NOTHING, IMPROVED)
-    assert plan.reached and plan.outside_limits == ("goal", "path")
+    assert plan.reached
+    assert plan.outside_limits == ("goal", "path")
     inside = np.array([0.0, MASTER.arm.upper[1] - 0.05, 0.0, 0.0, 0.0, 0.0])
     enforced = plan_apf_compiled(
         MASTER, start, inside, NOTHING, IMPROVED.changed(enforce_limits=True, update=FIXED)
     )
-    assert enforced.reached and enforced.outside_limits == ()
+    assert enforced.reached
+    assert enforced.outside_limits == ()
 
 
 @pytest.mark.parametrize("update", [IMPROVED.update, FIXED])
 def test_mirrored_problem_gives_the_mirrored_path(update):
     mirror = np.array([1.0, -1.0, 1.0])
-    start, goal = np.array([0.0, -0.3, 0.2, 0.1, 0.5, 0.0]), np.array([1.2, -0.6, 0.1, 0.3, 0.4, 0.2])
-    ball = MASTER.arm.positions(0.5 * (start + goal)) + [0.0, 0.0, -0.3]
+    start, goal = (
+        np.array([0.0, -0.3, 0.2, 0.1, 0.5, 0.0]),
+        np.array([1.2, -0.6, 0.1, 0.3, 0.4, 0.2]),
+    )
+    ball = MASTER.arm.positions(0.5 * (start + goal)) + np.array([0.0, 0.0, -0.3])
     paths = []
     for arm, sign, centre in ((MASTER.arm, 1.0, ball), (SLAVE.arm, -1.0, ball * mirror)):
         placed = PlacedArm("arm", arm)
@@ -255,8 +277,10 @@ def test_attraction_only_ignores_obstacles():
     settings = IMPROVED.changed(repulsion=None, virtual_point=None)
     plan = plan_apf_compiled(SLAVE, START, GOAL, around(), settings)
     free = plan_apf_compiled(SLAVE, START, GOAL, NOTHING, settings)
-    assert plan.reached and np.array_equal(plan.path, free.path)
-    assert plan.clearance.min() < 0 and not plan.repulsive.any()
+    assert plan.reached
+    assert np.array_equal(plan.path, free.path)
+    assert plan.clearance.min() < 0
+    assert not plan.repulsive.any()
     assert np.isinf(free.clearance).all()
 
 
@@ -272,4 +296,5 @@ def test_neighbour_search_arrives_on_its_lattice():
     plan = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED.changed(update=update))
     assert plan.reached
     steps = np.diff(plan.path, axis=0) / 0.03
-    assert np.abs(steps - np.round(steps)).max() < 1e-9 and np.abs(steps).max() < 1 + 1e-9
+    assert np.abs(steps - np.round(steps)).max() < 1e-9
+    assert np.abs(steps).max() < 1 + 1e-9

@@ -6,6 +6,21 @@ import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
+from window_scene import (
+    FIXED,
+    GOAL,
+    IMPROVED,
+    MASTER,
+    MASTER_GOAL,
+    MASTER_START,
+    SEARCH,
+    SLAVE,
+    START,
+    TRADITIONAL,
+    around,
+    virtual,
+    window,
+)
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.planning import (
@@ -29,22 +44,6 @@ from dualarm_repro.scene import (
     PosePath,
     Scene,
     Sphere,
-)
-
-from window_scene import (
-    FIXED,
-    GOAL,
-    IMPROVED,
-    MASTER,
-    MASTER_GOAL,
-    MASTER_START,
-    SEARCH,
-    SLAVE,
-    START,
-    TRADITIONAL,
-    around,
-    virtual,
-    window,
 )
 
 TOLERANCE = 1e-12
@@ -131,7 +130,9 @@ def test_same_plan_for_another_arm_and_seven_joints():
     start = np.array([0.0, -0.5, 0.0, -2.0, 0.0, 1.6, 0.5])
     goal = start + np.array([0.9, 0.2, -0.3, 0.4, 0.2, 0.3, -0.4])
     middle = placed.placement.act(placed.arm.positions(0.5 * (start + goal)))
-    ball = obstacles_of(Scene([placed], {"ball": Sphere(middle + [0.0, 0.0, -0.2], 0.08)}))
+    ball = obstacles_of(
+        Scene([placed], {"ball": Sphere(middle + np.array([0.0, 0.0, -0.2]), 0.08)})
+    )
     settings = IMPROVED.changed(
         control_points=(3, 5, 7, 8),
         virtual_point=None,

@@ -2,6 +2,7 @@
 
 import pydantic
 import pytest
+from window_scene import IMPROVED
 
 from dualarm_repro.errors import InputError
 from dualarm_repro.planning import (
@@ -17,8 +18,6 @@ from dualarm_repro.planning import (
 )
 from dualarm_repro.planning.settings import code
 
-from window_scene import IMPROVED
-
 TRAP = Trap(rule="block_means", steps=5, threshold=1e-3)
 
 
@@ -28,14 +27,34 @@ TRAP = Trap(rule="block_means", steps=5, threshold=1e-3)
         (lambda: Attraction(gain=0.0), "gain", "greater than 0"),
         (lambda: Attraction(gain=float("nan")), "gain", "finite"),
         (lambda: Attraction(gain=1.0, joint_wieght=1.0), "joint_wieght", "no field of that name"),
-        (lambda: Attraction(gain=1.0, position_weight=0.0), "combination", "a weight that is not zero"),
+        (
+            lambda: Attraction(gain=1.0, position_weight=0.0),
+            "combination",
+            "a weight that is not zero",
+        ),
         (lambda: Repulsion(gain=1.0), "influence", "required"),
         (lambda: Repulsion(gain=1.0, influence=1e-4), "combination", "contact below influence"),
         (lambda: Update(rule="downhill", max_step=0.1), "rule", "'gradient'"),
-        (lambda: Update(rule="gradient", max_step=0.1), "combination", "a gain for the rule gradient"),
-        (lambda: Update(rule="fixed_length", max_step=0.1, gain=1.0), "combination", "for no other"),
-        (lambda: Trap(rule="block_means", steps=0, threshold=1.0), "steps", "greater than or equal"),
-        (lambda: Termination(step_limit=9, trap=TRAP), "combination", "joint_tolerance or position"),
+        (
+            lambda: Update(rule="gradient", max_step=0.1),
+            "combination",
+            "a gain for the rule gradient",
+        ),
+        (
+            lambda: Update(rule="fixed_length", max_step=0.1, gain=1.0),
+            "combination",
+            "for no other",
+        ),
+        (
+            lambda: Trap(rule="block_means", steps=0, threshold=1.0),
+            "steps",
+            "greater than or equal",
+        ),
+        (
+            lambda: Termination(step_limit=9, trap=TRAP),
+            "combination",
+            "joint_tolerance or position",
+        ),
         (lambda: IMPROVED.changed(control_points="elbow"), "control_points", "five_links"),
         (lambda: IMPROVED.changed(weights=(-1.0,)), "weights", "greater than or equal to 0"),
         (lambda: IMPROVED.virtual_point.changed(position=(0.0, 1.0)), "position", "required"),

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
+from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning import certify, perturbed, plan_apf_compiled, plan_batch
 from dualarm_repro.planning.problem import problem
 from dualarm_repro.scene import Sphere
-
-from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 STARTS = perturbed(START, 0.1, 6, np.random.default_rng(0))
 VARIANTS = {
@@ -27,14 +26,17 @@ def test_each_run_is_the_plan_of_its_start(settings):
         assert np.array_equal(batch.last[k], plan.path[-1])
         assert batch.clearance[k] == plan.clearance.min()
         assert (batch.activations[k], batch.arrivals[k]) == (plan.activations, plan.arrivals)
-        assert batch.rescued[k] == plan.rescued and batch.reached[k] == plan.reached
+        assert batch.rescued[k] == plan.rescued
+        assert batch.reached[k] == plan.reached
         made = problem(SLAVE, start, GOAL, around(), settings)
         gradient = certify(made, plan.path[-1], plan.steps).gradient_norm
         assert batch.gradient_norm[k] == pytest.approx(gradient, rel=1e-6, abs=1e-9)
 
 
 def test_near_the_goal_is_told_from_trapped():
-    ball = around(ball=Sphere(SLAVE.placement.act(SLAVE.arm.positions(GOAL)) - [0, 0, 0.3], 0.1))
+    ball = around(
+        ball=Sphere(SLAVE.placement.act(SLAVE.arm.positions(GOAL)) - np.array([0, 0, 0.3]), 0.1)
+    )
     settings = IMPROVED.changed(virtual_point=None)
     batch = plan_batch(SLAVE, STARTS, GOAL, ball, settings)
     assert {str(reason) for reason in batch.reason} == {"goal-not-reachable-near-obstacle"}
@@ -44,7 +46,8 @@ def test_perturbed_starts_are_seeded_and_bounded():
     again = perturbed(START, 0.1, 6, np.random.default_rng(0))
     assert np.array_equal(again, STARTS)
     many = perturbed(START, 0.1, 500, np.random.default_rng(1)) - START
-    assert np.abs(many).max() <= 0.1 and np.abs(many).max() > 0.09
+    assert np.abs(many).max() <= 0.1
+    assert np.abs(many).max() > 0.09
     assert np.abs(many.mean(axis=0)).max() < 0.02
 
 

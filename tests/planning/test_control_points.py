@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from window_scene import MASTER, SLAVE
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import InputError
@@ -9,8 +10,6 @@ from dualarm_repro.planning import control_points
 from dualarm_repro.planning.control_points import end_effector, ends_of
 from dualarm_repro.scene import PlacedArm
 from dualarm_repro.scene.posing import links_of
-
-from window_scene import MASTER, SLAVE
 
 Q = np.random.default_rng(1).uniform(-1.5, 1.5, (4, 6))
 

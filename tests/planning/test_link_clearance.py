@@ -2,16 +2,6 @@
 
 import numpy as np
 import pytest
-
-from dualarm_repro.errors import InputError, UnknownNameError
-from dualarm_repro.planning import (
-    certified_clearance,
-    link_clearance,
-    plan_apf_compiled,
-    require_links_clear,
-)
-from dualarm_repro.scene import Capsule, JointPath, Scene, Sphere, clearance
-
 from window_scene import (
     GOAL,
     IMPROVED,
@@ -23,6 +13,15 @@ from window_scene import (
     around,
     scene,
 )
+
+from dualarm_repro.errors import InputError, UnknownNameError
+from dualarm_repro.planning import (
+    certified_clearance,
+    link_clearance,
+    plan_apf_compiled,
+    require_links_clear,
+)
+from dualarm_repro.scene import Capsule, JointPath, Scene, Sphere, clearance
 
 SLAVE_PATH = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED).joint_path()
 MASTER_PATH = JointPath(np.linspace(MASTER_START, MASTER_GOAL, 200))
@@ -44,24 +43,25 @@ def test_distances_are_those_of_the_scene_with_both_arms_in_step():
 
 def test_an_arm_that_has_arrived_is_still_there():
     """The slave waits at its goal while the master goes on: contact after the end still counts."""
-    pairs = [(first, second) for first, second in scene().pairs.names if "master" in first]
-    assert pairs
     found = link_clearance(scene(), {"slave": SLAVE_PATH, "master": MASTER_PATH}, 0.05)
     late = found.index > SLAVE_PATH.index[-1]
     assert late.any()
-    assert found.q[late][:, 6:] == pytest.approx(np.tile(SLAVE_PATH.configurations[-1], (late.sum(), 1)))
+    assert found.q[late][:, 6:] == pytest.approx(
+        np.tile(SLAVE_PATH.configurations[-1], (late.sum(), 1))
+    )
 
 
 def test_contact_between_two_steps_is_seen():
     """A thin wall that the tool crosses within one step of a coarse path."""
-    q = np.array([MASTER_START, MASTER_START + [0.4, 0, 0, 0, 0, 0]])
+    q = np.array([MASTER_START, MASTER_START + np.array([0.4, 0, 0, 0, 0, 0])])
     middle = MASTER.placement.act(MASTER.arm.positions(q.mean(axis=0)))
-    wall = Capsule(middle - [0, 0, 0.2], middle + [0, 0, 0.2], 0.01)
+    wall = Capsule(middle - np.array([0, 0, 0.2]), middle + np.array([0, 0, 0.2]), 0.01)
     there = Scene([MASTER], {"wall": wall}, self_collision=False)
     assert clearance(there, q).minimum.min() > 0.0
     path = {"master": JointPath(q)}
     found = link_clearance(there, path, 0.01)
-    assert found.minimum < 0.0 and 0.0 < found.nearest[1] < 1.0
+    assert found.minimum < 0.0
+    assert 0.0 < found.nearest[1] < 1.0
     bracket = certified_clearance(there, path)
     assert bracket.lower <= bracket.upper <= found.minimum + 1e-9
     assert bracket.upper - bracket.lower <= 1e-3
@@ -79,6 +79,8 @@ def test_links_that_touch_at_the_start_are_named():
     require_links_clear(scene(), {"slave": START})
     elbow = SLAVE.placement.act(SLAVE.arm.joint_positions(START)[2])
     blocked = scene(ball=Sphere(elbow, 0.05))
-    with pytest.raises(InputError, match=r"slave/capsule_\S+ and ball apart, not at a distance of -"):
+    with pytest.raises(
+        InputError, match=r"slave/capsule_\S+ and ball apart, not at a distance of -"
+    ):
         require_links_clear(blocked, {"slave": START})
     require_links_clear(blocked, {"master": MASTER_START})

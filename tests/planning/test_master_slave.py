@@ -2,18 +2,6 @@
 
 import numpy as np
 import pytest
-
-from dualarm_repro.errors import InputError, UnknownNameError
-from dualarm_repro.planning import (
-    Task,
-    at_tool_speed,
-    control_points,
-    plan_apf,
-    plan_apf_compiled,
-    plan_master_slave,
-)
-from dualarm_repro.planning.control_points import end_effector
-
 from window_scene import (
     GOAL,
     IMPROVED,
@@ -25,6 +13,17 @@ from window_scene import (
     around,
     scene,
 )
+
+from dualarm_repro.errors import InputError, UnknownNameError
+from dualarm_repro.planning import (
+    Task,
+    at_tool_speed,
+    control_points,
+    plan_apf,
+    plan_apf_compiled,
+    plan_master_slave,
+)
+from dualarm_repro.planning.control_points import end_effector
 
 TASKS = {"master": Task(MASTER_START, MASTER_GOAL, IMPROVED), "slave": Task(START, GOAL, IMPROVED)}
 BOTH = plan_master_slave(scene(), TASKS)
@@ -90,7 +89,9 @@ def test_the_master_at_another_speed():
 
 def test_any_planner_can_be_used():
     tasks = {"slave": TASKS["slave"]}
-    slow, fast = (plan_master_slave(scene(), tasks, planner=p) for p in (plan_apf, plan_apf_compiled))
+    slow, fast = (
+        plan_master_slave(scene(), tasks, planner=p) for p in (plan_apf, plan_apf_compiled)
+    )
     assert slow.slave.path == pytest.approx(fast.slave.path, abs=1e-12)
     assert slow.master is slow.slave
 

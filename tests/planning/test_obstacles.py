@@ -3,6 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from window_scene import GOAL, MASTER, SLAVE, START, around, scene, window
 
 from dualarm_repro.errors import InputError, UnknownNameError
 from dualarm_repro.planning import control_points, obstacles_of
@@ -18,8 +19,6 @@ from dualarm_repro.scene import (
     Sphere,
     point_distances,
 )
-
-from window_scene import GOAL, MASTER, SLAVE, START, around, scene, window
 
 SHIFT = PosePath([pin.SE3.Identity(), pin.SE3(np.eye(3), np.array([0.0, 0.0, 2.0]))], [0, 4])
 
@@ -40,7 +39,7 @@ def test_distances_are_those_of_the_shapes():
     obstacles = obstacles_of(Scene([MASTER], shapes, floor=-0.5))
     rng = np.random.default_rng(0)
     for x in rng.uniform(-1.5, 1.5, (30, 3)):
-        distance, point, outward = obstacles.distances(points_at(x), np.array([0.05]), 0)
+        distance, _, outward = obstacles.distances(points_at(x), np.array([0.05]), 0)
         expected, gradient = point_distances(x, list(shapes.values()))
         assert distance[0, 0, :2] == pytest.approx(expected - 0.05)
         assert outward[0, 0, :2] == pytest.approx(gradient)
@@ -91,9 +90,10 @@ def test_nothing_is_an_obstacle_too():
 
 def test_what_a_planner_is_not_told():
     there = Scene([MASTER], {"window": window()}, floor=-1.0)
-    assert obstacles_of(there, leave_out=["floor"]).names == obstacles_of(
-        Scene([MASTER], {"window": window()})
-    ).names
+    assert (
+        obstacles_of(there, leave_out=["floor"]).names
+        == obstacles_of(Scene([MASTER], {"window": window()})).names
+    )
 
 
 @pytest.mark.parametrize(

@@ -2,18 +2,26 @@
 
 import numpy as np
 import pytest
+from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 from dualarm_repro.planning import plan_apf_compiled
 from dualarm_repro.planning.control_points import end_effector
-
-from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 PLAN = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED)
 
 
 def test_rows_belong_together():
     rows = PLAN.steps + 1
-    for name in ("path", "attractive", "repulsive", "virtual", "clearance", "active", "total", "tcp"):
+    for name in (
+        "path",
+        "attractive",
+        "repulsive",
+        "virtual",
+        "clearance",
+        "active",
+        "total",
+        "tcp",
+    ):
         assert len(getattr(PLAN, name)) == rows, name
     assert PLAN.repulsive.shape == PLAN.clearance.shape == (rows, len(PLAN.point_names))
     assert PLAN.obstacle_names == tuple(f"window/{k}" for k in range(4))
@@ -35,7 +43,8 @@ def test_the_potential_falls_at_every_step_of_a_descent_among_standing_obstacles
 
 def test_table_of_a_plan():
     frame = PLAN.to_frame()
-    assert frame.index.name == "step" and len(frame) == PLAN.steps + 1
+    assert frame.index.name == "step"
+    assert len(frame) == PLAN.steps + 1
     assert frame[[f"q{j}" for j in range(1, 7)]].to_numpy() == pytest.approx(PLAN.path)
     assert frame["clearance frame_6"].min() == PLAN.clearance[:, -1].min()
     assert frame[[f"repulsive {n}" for n in PLAN.point_names]].to_numpy() == pytest.approx(

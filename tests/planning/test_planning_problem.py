@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
+from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around, virtual
 
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning import plan_apf, plan_apf_compiled, plan_batch
 from dualarm_repro.planning.problem import problem
 from dualarm_repro.scene import Sphere
-
-from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around, virtual
 
 PLANNERS = [plan_apf, plan_apf_compiled, plan_batch]
 
@@ -39,7 +38,7 @@ def test_a_start_inside_an_obstacle_names_the_point_and_the_shape(planner):
 
 def test_limits_are_only_enforced_on_demand():
     problem(MASTER, np.zeros(6), GOAL, around(), IMPROVED)
-    with pytest.raises(ConfigurationError, match="start = .*expected a value within the limits"):
+    with pytest.raises(ConfigurationError, match=r"start = .*expected a value within the limits"):
         problem(MASTER, np.zeros(6), GOAL, around(), IMPROVED.changed(enforce_limits=True))
 
 

@@ -1,4 +1,4 @@
-"""Potentials: their formulas by hand, every gradient by central differences, behaviour in contact."""
+"""Potentials: formulas by hand, every gradient by central differences, behaviour in contact."""
 
 import numpy as np
 import pinocchio as pin
@@ -37,12 +37,14 @@ def everything():
     """Every sort of shape near the master, one of them moving."""
     path = PosePath([pin.SE3.Identity(), pin.SE3(np.eye(3), np.array([0.0, 0.0, 0.4]))], [0, 4])
     shapes = {
-        "window": window_frame(BASE + [1.6, 0.0, -0.9], facing((1.0, 0.2, 0.0)), 0.6, 0.6, 0.1, 0.1),
-        "ball": Sphere(BASE + [0.9, 0.5, 0.3], 0.2),
-        "bar": Capsule(BASE + [0.5, -0.9, 0.4], BASE + [1.2, -0.5, 0.9], 0.05),
+        "window": window_frame(
+            BASE + np.array([1.6, 0.0, -0.9]), facing((1.0, 0.2, 0.0)), 0.6, 0.6, 0.1, 0.1
+        ),
+        "ball": Sphere(BASE + np.array([0.9, 0.5, 0.3]), 0.2),
+        "bar": Capsule(BASE + np.array([0.5, -0.9, 0.4]), BASE + np.array([1.2, -0.5, 0.9]), 0.05),
         "floor": HalfSpace((0.0, 0.1, 1.0), BASE[2] - 1.6),
     }
-    moving = {"crate": MovingShape(Box(BASE + [1.0, -0.4, -1.2], (0.3, 0.2, 0.4)), path)}
+    moving = {"crate": MovingShape(Box(BASE + np.array([1.0, -0.4, -1.2]), (0.3, 0.2, 0.4)), path)}
     return obstacles_of(Scene([MASTER], shapes, moving))
 
 
@@ -54,9 +56,9 @@ def repulsion(points="frames_2_6", combination=Combination.SUM, influence=0.8, o
 
 def central_differences(potential, q, step=0, h=1e-6):
     shifts = h * np.eye(len(q))
-    return np.array([potential.value(q + s, step) - potential.value(q - s, step) for s in shifts]) / (
-        2 * h
-    )
+    return np.array(
+        [potential.value(q + s, step) - potential.value(q - s, step) for s in shifts]
+    ) / (2 * h)
 
 
 def assert_gradient(potential, q, step=0, tolerance=1e-6):
@@ -73,7 +75,9 @@ def test_gradients_of_the_attractions(q):
     assert_gradient(both, q)
 
 
-@pytest.mark.parametrize("points", ["end_effector", "frames_2_6", "frames_1_5", "five_links", "capsules"])
+@pytest.mark.parametrize(
+    "points", ["end_effector", "frames_2_6", "frames_1_5", "five_links", "capsules"]
+)
 @pytest.mark.parametrize("combination", list(Combination))
 def test_gradient_of_the_repulsion(points, combination):
     potential = repulsion(points, combination)
@@ -89,7 +93,9 @@ def test_gradient_of_the_repulsion(points, combination):
 
 
 def test_gradient_points_out_of_an_obstacle():
-    ball = obstacles_of(Scene([MASTER], {"ball": Sphere(BASE + [1.559, 0.1, -1.45], 0.3)}))
+    ball = obstacles_of(
+        Scene([MASTER], {"ball": Sphere(BASE + np.array([1.559, 0.1, -1.45]), 0.3)})
+    )
     potential = repulsion("end_effector", obstacles=ball)
     q = np.zeros(6)
     assert potential.distances(q).item() == pytest.approx(-0.2)
@@ -103,10 +109,17 @@ def test_potential_is_smooth_at_contact_distance_and_at_influence():
     wall = obstacles_of(Scene([MASTER], {"wall": HalfSpace((1.0, 0.0, 0.0), BASE[0] + 1.0)}))
     for distance in (1e-3, 0.8):
         at = PointRepulsion(
-            MASTER, control_points(MASTER.arm, "end_effector"), wall, 1.0, 0.8, 1e-3, Combination.SUM
+            MASTER,
+            control_points(MASTER.arm, "end_effector"),
+            wall,
+            1.0,
+            0.8,
+            1e-3,
+            Combination.SUM,
         )
         values, slopes = zip(
-            *((at._energy(d), at._slope(d)) for d in distance + np.array([-1e-9, 1e-9])), strict=True
+            *((at._energy(d), at._slope(d)) for d in distance + np.array([-1e-9, 1e-9])),
+            strict=True,
         )
         assert values[0] == pytest.approx(values[1], rel=1e-5, abs=1e-12)
         assert slopes[0] == pytest.approx(slopes[1], rel=1e-4, abs=1e-7)
@@ -114,11 +127,11 @@ def test_potential_is_smooth_at_contact_distance_and_at_influence():
 
 def test_formulas_by_hand():
     q = np.zeros(6)
-    X = BASE + [1.559, 0.0, -1.450]
-    attraction = PositionAttraction(MASTER, X + [0.3, -0.4, 0.0], 2.0)
+    X = BASE + np.array([1.559, 0.0, -1.450])
+    attraction = PositionAttraction(MASTER, X + np.array([0.3, -0.4, 0.0]), 2.0)
     assert attraction.value(q) == pytest.approx(0.25)
     assert JointAttraction(np.full(6, 0.5), 2.0).value(q) == pytest.approx(1.5)
-    ball = obstacles_of(Scene([MASTER], {"ball": Sphere(X + [0.0, 0.0, -0.5], 0.3)}))
+    ball = obstacles_of(Scene([MASTER], {"ball": Sphere(X + np.array([0.0, 0.0, -0.5]), 0.3)}))
     potential = repulsion("end_effector", obstacles=ball, influence=0.4)
     assert potential.value(q) == pytest.approx(1.3 / 2 * (1 / 0.2 - 1 / 0.4) ** 2)
     assert repulsion("end_effector", obstacles=ball, influence=0.19).value(q) == 0.0
@@ -160,7 +173,7 @@ def test_acting_names_the_shapes_that_repel():
 @given(joints, st.integers(0, 6))
 def test_a_rigid_motion_of_everything_changes_nothing(q, step):
     motion = pin.SE3(pin.rpy.rpyToMatrix(0.4, -1.1, 2.0), np.array([0.3, -2.0, 0.7]))
-    ball = Sphere(BASE + [1.0, 0.2, -0.5], 0.2)
+    ball = Sphere(BASE + np.array([1.0, 0.2, -0.5]), 0.2)
     moved = PlacedArm("moved", MASTER.arm, motion * MASTER.placement)
     values = []
     for placed, shape, target in (

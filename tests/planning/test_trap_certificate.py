@@ -1,14 +1,15 @@
 """Certificates: gradient and curvature at a known minimum, saddle and slope."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around
 
 from dualarm_repro.planning import Attraction, certify, obstacles_of
 from dualarm_repro.planning.certificate import hessian
 from dualarm_repro.planning.problem import problem
 from dualarm_repro.scene import Scene, Sphere
-
-from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around
 
 NOTHING = obstacles_of(Scene([SLAVE]))
 JOINTS = IMPROVED.changed(attraction=Attraction(gain=2.0, position_weight=0.0, joint_weight=1.5))
@@ -39,7 +40,9 @@ def test_a_saddle_shows_a_negative_curvature():
 
 
 def test_second_derivatives_are_those_of_the_value():
-    ball = Sphere(SLAVE.placement.act(SLAVE.arm.positions(START)) + [0.0, 0.0, 0.35], 0.15)
+    ball = Sphere(
+        SLAVE.placement.act(SLAVE.arm.positions(START)) + np.array([0.0, 0.0, 0.35]), 0.15
+    )
     made = problem(SLAVE, START, GOAL, around(ball=ball), IMPROVED)
     second, h = hessian(made, START, 0), 1e-4
     assert made.repulsion.value(START) > 0
@@ -50,15 +53,14 @@ def test_second_derivatives_are_those_of_the_value():
         assert second[j, k] == pytest.approx(numeric, rel=1e-3, abs=1e-3)
 
 
-def test_joints_held_by_a_limit_do_not_count():
-    low, high = MASTER.arm.lower, MASTER.arm.upper
-    start = 0.5 * (low + high)
-    goal = start.copy()
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_joints_held_by_a_limit_do_not_count(side):
+    arm, second = MASTER.arm, np.arange(6) == 1
+    middle, limit = 0.5 * (arm.lower + arm.upper), arm.lower if side < 0 else arm.upper
     settings = JOINTS.changed(enforce_limits=True)
-    made = problem(MASTER, start, goal, obstacles_of(Scene([MASTER])), settings)
-    held = goal.copy()
-    held[1] = high[1]
-    assert certify(made, held, 0).gradient_norm > 0.1  # drawn back from the limit
-    beyond = problem(MASTER, start, goal, made.obstacles, settings)
-    object.__setattr__(beyond, "goal", np.where(np.arange(6) == 1, high + 0.3, goal))
-    assert certify(beyond, held, 0).gradient_norm == pytest.approx(0.0, abs=1e-12)
+    made = problem(MASTER, middle, middle, obstacles_of(Scene([MASTER])), settings)
+    held = np.where(second, limit, middle)
+    drawn_back = certify(made, held, 0).gradient_norm
+    assert drawn_back == pytest.approx(3.0 * abs(limit - middle)[1])
+    drawn_out = replace(made, goal=np.where(second, limit + side * 0.3, middle))
+    assert certify(drawn_out, held, 0).gradient_norm == pytest.approx(0.0, abs=1e-12)

@@ -37,7 +37,8 @@ def test_a_trap_switches_it_on_and_coming_close_switches_it_off(switching):
     state = after(state, chosen, [(False, FAR, 3), (True, FAR, 10)])
     assert (state.active, state.since, state.activations) == (True, 10, 1)
     state = after(state, chosen, [(False, FAR, 11), (True, FAR, 12)])
-    assert state.active and not state.trapped
+    assert state.active
+    assert not state.trapped
     state = after(state, chosen, [(False, NEAR, 13)])
     assert (state.active, state.since, state.arrivals, state.activations) == (False, 13, 1, 1)
 
@@ -67,17 +68,22 @@ def test_without_a_point_the_first_trap_is_the_end():
 def test_from_the_start_there_is_one_try():
     chosen = rules(Switching.FROM_START)
     state = initial(chosen)
-    assert state.active and state.activations == 1
+    assert state.active
+    assert state.activations == 1
     assert not may_finish(state, chosen)
     state = switched(state, chosen, True, NEAR, 8)
-    assert not state.active and state.arrivals == 1 and may_finish(state, chosen)
+    assert not state.active
+    assert state.arrivals == 1
+    assert may_finish(state, chosen)
     assert switched(state, chosen, True, FAR, 60).trapped
 
 
 def test_always_is_never_switched_off():
     chosen = rules(Switching.ALWAYS)
     state = after(initial(chosen), chosen, [(False, NEAR, 1), (False, FAR, 999)])
-    assert state.active and not state.trapped and may_finish(state, chosen)
+    assert state.active
+    assert not state.trapped
+    assert may_finish(state, chosen)
     assert switched(state, chosen, True, FAR, 1000).trapped
 
 

@@ -16,6 +16,7 @@ from dualarm_repro.scene import (
     distances,
 )
 from dualarm_repro.scene.pairs import SORTS, always_overlapping
+from dualarm_repro.scene.posing import links_of
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +64,15 @@ def test_self_pairs_skip_neighbours_and_links_that_always_overlap(scene):
     assert overlapping.any()
     off = two_arms(self_collision=False)
     assert not any(len(owners(pair)) == 1 for pair in off.pairs.bodies)
+
+
+@pytest.mark.parametrize("name", ["panda", "kinova-j2s6s200"])
+def test_neighbours_are_no_pair_even_where_they_keep_apart(name):
+    arm = load_arm(name)
+    joint = links_of(arm).joint
+    near = np.abs(joint[:, None] - joint) <= 1
+    assert (near & ~always_overlapping(arm)).any()
+    assert all(abs(a.joint - b.joint) > 1 for a, b in Scene([PlacedArm("arm", arm)]).pairs.bodies)
 
 
 def test_always_overlapping_agrees_with_random_configurations():

@@ -92,3 +92,50 @@ def test_a_segment_across_an_edge_leaves_over_the_edge():
     assert np.abs(found.normal).max() < 0.99
     assert found.normal @ (end - start) == pytest.approx(0, abs=1e-9)
     assert found.distance == pytest.approx(judged(Capsule(start, end, 0.01), hull)[0], abs=1e-9)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("off", [0.0, 1e-15, 1e-9, 1e-6])
+def test_a_box_and_its_hull_agree_where_everything_is_aligned(off, turned):
+    """Grid coordinates, exact and nearly so: parallel edges, shared planes, ties of every kind."""
+    rng = np.random.default_rng(3)
+    for size in ((1, 1, 1), (1, 0.5, 1.5), (2, 1, 0.5)):
+        h = tuple(0.5 * np.array(size))
+        R = random_placement(rng).rotation if turned else np.eye(3)
+        hull = ConvexHull(CUBE * h @ R.T).polytope
+        for a, u in 0.25 * rng.integers(-6, 7, (600, 2, 3)) + off * rng.normal(size=(600, 2, 3)):
+            by_box = segment_box(tuple(a), tuple(u), h)
+            distance, *points = segment_polytope(tuple(R @ a), tuple(R @ u), hull)
+            by_hull = distance, *(np.array(point) @ R for point in points)
+            assert by_box[0] == pytest.approx(by_hull[0], abs=1e-10)
+            for distance, p, q, normal in (by_box, by_hull):
+                np.testing.assert_allclose(np.add(p, distance * np.array(normal)), q, atol=1e-9)
+                assert (np.abs(q) - h).max() == pytest.approx(0, abs=1e-8)  # on the surface
+                ends = np.array([a, a + u]) @ normal
+                between_planes = -np.abs(normal) @ np.array(h) - ends.max()
+                # The normal of a tiny gap is turned by the rounding of its ends.
+                tolerance = 1e-7 + 1e-15 / max(abs(distance), 1e-10)
+                assert between_planes == pytest.approx(distance, abs=tolerance)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-16, 1e-12, 1e-8])
+def test_segments_along_the_edges_and_through_the_corners_of_a_hull(off):
+    """Parallel to an edge up to rounding, edge x u has no direction: no gap may come out of it."""
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        hull = ConvexHull(rng.normal(size=(9, 3)))
+        v = hull.vertices
+        features = np.vstack([v, v[hull.faces].mean(axis=1), v[hull.polytope.edges].mean(axis=1)])
+        for _ in range(100):
+            first, second = features[rng.integers(len(features), size=2)]
+            low, high = rng.choice([-1.0, -0.5, 0.0, 0.5, 1.0, 2.0], 2)
+            a, b = (first + s * (second - first) for s in (low, high))
+            lifted = rng.choice([0.0, 0.5]) * rng.normal(size=3)  # touching, or parallel at a gap
+            a, u = a + lifted + off * rng.normal(size=3), b - a + off * rng.normal(size=3)
+            distance, p, q, normal = segment_polytope(tuple(a), tuple(u), hull.polytope)
+            np.testing.assert_allclose(np.add(p, distance * np.array(normal)), q, atol=1e-9)
+            heights = hull.polytope.planes[:, :3] @ q + hull.polytope.planes[:, 3]
+            assert heights.max() == pytest.approx(0, abs=1e-7)  # like the normal of a tiny depth
+            between_planes = (v @ normal).min() - (np.array([a, a + u]) @ normal).max()
+            tolerance = 1e-7 + 1e-14 / max(abs(distance), 1e-10)
+            assert between_planes == pytest.approx(distance, abs=tolerance)

@@ -23,6 +23,14 @@ def test_agrees_with_the_reference_on_random_segments():
         assert found == pytest.approx(segment_segment_reference(a, b), abs=1e-13)
 
 
+def test_agrees_with_the_reference_where_everything_is_aligned():
+    """Shared ends, one line, parallel, crossing, of length zero."""
+    rng = np.random.default_rng(2)
+    for a, b in rng.integers(-2, 3, (4000, 2, 2, 3)):
+        found = call(segment_segment, a, b)[0]
+        assert found == pytest.approx(segment_segment_reference(a, b), abs=1e-12)
+
+
 def test_no_sampled_pair_of_points_is_nearer():
     rng = np.random.default_rng(1)
     s = np.linspace(0, 1, 60)

@@ -71,10 +71,11 @@ def test_both_rules_end_a_run():
 
 
 def test_nothing_feasible():
-    found = evolve(
-        lambda p: np.zeros(len(p)), BOX, Settings(generations=5), np.random.default_rng(1)
-    )
+    given = (lambda p: np.zeros(len(p)), BOX, Settings(generations=5))
+    found = evolve(*given, np.random.default_rng(1), must_find=False)
     assert not found.found
+    with pytest.raises(InputError, match="none of the 285 evaluated ones is"):
+        evolve(*given, np.random.default_rng(1))
     nowhere = grid_optimum(lambda p: np.zeros(len(p)), BOX, 0.5)
     assert nowhere.fitness == 0
     assert np.isnan(nowhere.position).all()

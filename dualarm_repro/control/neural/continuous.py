@@ -107,7 +107,6 @@ def integrate_network(
         follow(circle, t, position, velocity)
         distance[k] = observe(buffers, position, error[k])
     stopped = None if found.success else f"{found.message} at t = {found.t[-1]:.3f} s"
-    motion = Motion(
-        found.t, q, x[:-1], error, distance, np.array(rows[:-1]), np.zeros(len(q) - 1), stopped
-    )
+    counts, given = np.array(rows[:-1]), np.zeros(len(q) - 1)
+    motion = Motion(sample, found.t, q, x[:-1], error, distance, counts, given, stopped)
     return motion, int(found.nfev)

@@ -140,20 +140,19 @@ def printed_point(assumed: Assumed) -> Result:
     distance = float(np.linalg.norm(best.position - printed))
     at_print = solved(job, tuple(printed))
     table = reading_table()
-    far = table[[f"{reading} {_FAR}" for reading in READINGS]]
-    top = far.max(axis=1).idxmax()
-    column = far.loc[top].idxmax()
+    near, far = (table[[f"{reading} {radius}" for reading in READINGS]] for radius in (_NEAR, _FAR))
+    shares = far.set_axis([_LABELS[reading] for reading in READINGS], axis=1)
     excluded = [
-        f"{name} ({_LABELS[reading]})"
-        for reading in READINGS
-        for name in table.index
-        if table.loc[name, f"{reading} {_FAR}"] == 0
+        f"{row} ({column})" for column in shares for row in shares.index[shares[column] == 0]
     ]
+    told = "; ".join(
+        f"with the {column} '{shares[column].idxmax()}' comes nearest, "
+        f"{shares[column].max():.1%} of its optima"
+        for column in shares
+    )
     sets = len(CONSISTENCY.load()) // len(READINGS)
     cell = job.cell().unlimited()
     unlimited = Placement(cell, measure.reading()).jobs([printed])
-    shares = far.set_axis([_LABELS[reading] for reading in READINGS], axis=1)
-    best_literal, best_inverted = (far[f"{r} {_FAR}"].max() for r in ("literal", "inverted"))
     return Result(
         obtained={
             "C": best.position.tolist(),
@@ -161,7 +160,7 @@ def printed_point(assumed: Assumed) -> Result:
             "fitness": best.fitness,
             "printed_point_is": status_name(at_print),
             "readings_near": int((far > 0).to_numpy().sum()),
-            "readings": far.size,
+            "readings": shares.size,
             "feasible_sets": _feasible_sets(),
             "excluded": excluded,
             "shares": {name: row.to_dict() for name, row in table.iterrows()},
@@ -170,12 +169,10 @@ def printed_point(assumed: Assumed) -> Result:
         caption=(
             f"With the declared assumptions the best position is ({point(best.position, 3)}) m, "
             f"{distance:.2f} m from the printed one, which is itself not feasible there "
-            f"({status_name(at_print)}). Over {sets} sampled sets of assumptions the reading that "
-            f"comes nearest is '{top}' with the {_LABELS[column.split()[0]]}: "
-            f"{far.loc[top, column]:.1%} of its optima lie within {_FAR:g} m, against at most "
-            f"{best_inverted:.1%} for any reading with the matrix taken as pose of the base and "
-            f"{best_literal:.1%} as labelled. {len(excluded)} of {far.size} readings never come "
-            "that near. The printed point cannot be derived from the text."
+            f"({status_name(at_print)}). Over {sets} sampled sets of assumptions, and within "
+            f"{_FAR:g} m: {told}. The largest share within {_NEAR:g} m is "
+            f"{near.to_numpy().max():.1%}. {len(excluded)} of {shares.size} readings never come "
+            f"within {_FAR:g} m. The text does not determine the printed point."
         ),
         alt=(
             "Left: optima of all readings in two projections with the printed point and circles "

@@ -54,9 +54,8 @@ def respects_limits(assumed: Assumed) -> Result:
         caption=(
             f"Where the pseudo-inverse leaves a joint range by {excess[0]:.3f} rad, the QP keeps "
             f"{-excess[1]:.4f} rad from every limit and the network, whose bounds are soft, "
-            f"{-excess[2]:.4f} rad; the tips "
-            f"stay within {1e6 * motion.largest_error:.0f} um of their circles. Speeds never "
-            "reach their limits here."
+            f"{-excess[2]:.4f} rad; the tips stay within {1e6 * motion.largest_error:.0f} um of "
+            "their circles. Speeds never reach their limits here."
         ),
     )
 
@@ -100,12 +99,10 @@ def two_ranges(assumed: Assumed) -> Result:
         },
         caption=(
             f"Rows come and go with d1: the nearest pair is inside it for {inside.mean():.0%} of "
-            "the time. Inside, its "
-            f"approach stays below the bound that falls to zero at d2, and the distance ends up at "
-            f"{1e3 * motion.smallest_distance:.1f} mm. A second scenario starts "
-            f"{1e3 * start.distance[0]:.1f} mm apart, "
-            "below d2, where the bound is negative: the arms separate and end "
-            f"{1e3 * start.distance[-1]:.0f} mm apart."
+            "the time. Inside, its approach stays below the bound that falls to zero at d2, and "
+            f"the distance ends up at {1e3 * motion.smallest_distance:.1f} mm. A second scenario "
+            f"starts {1e3 * start.distance[0]:.1f} mm apart, below d2, where the bound is "
+            f"negative: the arms separate and end {1e3 * start.distance[-1]:.0f} mm apart."
         ),
         alt="Distance between two ranges, approach speed below its falling bound, and number of "
         "rows over time.",
@@ -159,10 +156,8 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
         caption=(
             "The QP takes constraints into account that the pseudo-inverse cannot express: of "
             f"{len(counted)} random tasks the pseudo-inverse leaves a joint range in {leave:.0%} "
-            "and collides in "
-            f"{counted['collides'].mean():.1%}. Real time is no difference between them: both "
-            "are far faster than the "
-            "control rate, and the pseudo-inverse is the faster one."
+            f"and collides in {counted['collides'].mean():.1%}. Real time is no difference "
+            "between them: a step of either takes a small share of the control period."
         ),
     )
 

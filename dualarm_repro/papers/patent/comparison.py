@@ -36,6 +36,7 @@ KEPT = 5e-4
 
 @checks(
     "patent.fig02",
+    samples=32,
     rules=[
         Bounded(
             key="naive_distance", high=-0.05, label="without avoidance the arms interpenetrate [m]"
@@ -72,21 +73,17 @@ def comparison(assumed: Assumed) -> Result:
         table=table,
         caption=(
             f"{scenario.title}. The same circles in {scenario.period:g} s: without the avoidance "
-            "rows the arms "
-            f"interpenetrate by {-1e3 * naive.smallest_distance:.0f} mm, with them they stay "
-            f"{1e3 * motion.smallest_distance:.1f} mm apart, and the tips leave their paths by "
-            "no more than "
-            f"{1e6 * motion.largest_error:.0f} um in either case. Avoidance is paid in joint "
-            "motion: the integral of "
-            f"the squared speed grows by a factor of {motion.energy / naive.energy:.2f}, the "
-            "largest acceleration from "
+            f"rows the arms interpenetrate by {-1e3 * naive.smallest_distance:.0f} mm, with them "
+            f"they stay {1e3 * motion.smallest_distance:.1f} mm apart, and the tips leave their "
+            f"paths by no more than {1e6 * motion.largest_error:.0f} um in either case. Avoidance "
+            "is paid in joint motion: the integral of the squared speed grows by a factor of "
+            f"{motion.energy / naive.energy:.2f}, the largest acceleration from "
             f"{naive.peak_acceleration:.1f} to {motion.peak_acceleration:.1f} rad/s^2."
         ),
         alt=(
             "Two pictures of two arms, crossing each other without avoidance and apart with it; "
-            "below, their "
-            "distance over time, which falls below zero without avoidance and stays above the "
-            "inner range with it."
+            "below, their distance over time, which falls below zero without avoidance and stays "
+            "above the inner range with it."
         ),
         figure=lambda: _comparison_figure(scenario, settings, naive, motion),
         scene=lambda: _scene(scenario, motion),

@@ -63,14 +63,12 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
         table=pd.DataFrame({"network steps": steps, "primal-dual iterations": others}),
         caption=(
             "From a zero state the network, discretised with unit gain, needs "
-            f"{np.median(steps):.0f} steps in the "
-            f"median of {len(problems)} problems of the frozen task until its residual is below "
-            f"{threshold:g}; the "
-            f"primal-dual network needs {np.median(others):.0f} iterations, at most "
-            f"{max(others)}. A network step solves a "
-            "linear system and costs as much as a handful of iterations (see the contest), so "
-            "the claim "
-            "holds. The network step is a Newton step, the other method is of first order."
+            f"{np.median(steps):.0f} steps in the median of {len(problems)} problems of the "
+            f"frozen task until its residual is below {threshold:g}; the primal-dual network "
+            f"needs {np.median(others):.0f} iterations, at most {max(others)}. A network step "
+            "solves a linear system and costs as much as a handful of iterations (see the "
+            "contest), so the claim holds. The network step is a Newton step, the other method is "
+            "of first order."
         ),
         alt="Residuals of both networks over the number of steps: the network falls within a "
         "few, the other in hundreds.",
@@ -87,9 +85,9 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
             label="accuracy of the network against the minimiser [rad/s]",
         ),
         Is(
-            key="faster_at_its_best",
+            key="clearly_faster",
             value=True,
-            label="at the best accuracy it reaches it takes less time",
+            label="at the best accuracy it reaches it takes at most half the time",
         ),
     ],
 )
@@ -109,7 +107,7 @@ def faster_than_numerical(assumed: Assumed) -> Result:
         obtained={
             "network_error": best.error,
             "network_steps": best.effort,
-            "faster_at_its_best": best.microseconds < exact.microseconds,
+            "clearly_faster": best.microseconds < 0.5 * exact.microseconds,
         },
         measured={
             "exact_us": _spread(exact),
@@ -123,16 +121,11 @@ def faster_than_numerical(assumed: Assumed) -> Result:
         table=pd.DataFrame(entries),
         caption=(
             "Same problems, same language, one thread, no Python inside the timed loops. The "
-            "exact active-set "
-            "method takes the problem from nothing to rounding accuracy; the network, started "
-            "from the problem before, "
-            f"needs {best.effort} steps to come as near as its penalty lets it, {best.error:.1e} "
-            "rad/s. At that accuracy it is "
-            f"the {'faster' if best.microseconds < exact.microseconds else 'slower'} one, and at "
-            "the accuracy "
-            "of the exact method it never arrives. The claim is not confirmed: each network step "
-            "is itself a "
-            "linear solve on a digital computer."
+            "exact active-set method takes the problem from nothing to rounding accuracy; the "
+            "network, started from the problem before, comes as near as its penalty lets it, "
+            f"{best.error:.1e} rad/s, in {best.microseconds / exact.microseconds:.1f} times the "
+            "time. At the accuracy of the exact method it never arrives. The claim is not "
+            "confirmed: each network step is itself a linear solve on a digital computer."
         ),
         alt="Largest error against time a problem: the exact method at the bottom left, both "
         "networks above and to the right.",
@@ -218,16 +211,14 @@ def more_robust(assumed: Assumed) -> Result:
         table=table,
         caption=(
             "A constant disturbance of the state equation leaves a tip error of "
-            f"{1e6 * own['state'].largest_error:.0f} um with "
-            f"the network and {1e6 * other['state'].largest_error:.0f} um with the primal-dual "
-            "one; with constant gain the "
-            f"network has {1e6 * flat.largest_error:.0f} um: what remains is disturbance over "
-            "gain, whatever the network. "
-            f"White noise of {1e3 * assumed['reading_noise']:.1f} mm on the distances makes the "
-            "high gain a weakness: peak acceleration "
-            f"{own['readings'].peak_acceleration:.0f} against "
-            f"{other['readings'].peak_acceleration:.0f} rad/s^2, smallest "
-            f"distance {1e3 * own['readings'].smallest_distance:.1f} against "
+            f"{1e6 * own['state'].largest_error:.0f} um with the network and "
+            f"{1e6 * other['state'].largest_error:.0f} um with the primal-dual one; with constant "
+            f"gain the network has {1e6 * flat.largest_error:.0f} um: what remains is disturbance "
+            "over gain, whatever the network. White noise of "
+            f"{1e3 * assumed['reading_noise']:.1f} mm on the distances makes the high gain a "
+            f"weakness: peak acceleration {own['readings'].peak_acceleration:.0f} against "
+            f"{other['readings'].peak_acceleration:.0f} rad/s^2, smallest distance "
+            f"{1e3 * own['readings'].smallest_distance:.1f} against "
             f"{1e3 * other['readings'].smallest_distance:.1f} mm."
         ),
     )
@@ -262,12 +253,10 @@ def accurate(assumed: Assumed) -> Result:
         },
         caption=(
             f"Largest tip error {motion.largest_error:.1e} m over the whole path, by "
-            f"{assumed['integrator']}, against "
-            f"{bound:g} m reported in a related publication. It rests on a start at rest with a "
-            "state that solves "
-            f"E y = e; from a random state of size {_RANDOM:g} rad/s the tips are off by up to "
-            f"{started.largest_error:.1e} m before the error has died out. How accurate is meant "
-            "is not printed."
+            f"{assumed['integrator']}, against {bound:g} m reported in a related publication. It "
+            "rests on a start at rest with a state that solves E y = e; from a random state of "
+            f"size {_RANDOM:g} rad/s the tips are off by up to {started.largest_error:.1e} m "
+            "before the error has died out. How accurate is meant is not printed."
         ),
     )
 

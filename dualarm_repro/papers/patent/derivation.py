@@ -92,10 +92,9 @@ def lagrange_function(assumed: Assumed) -> Result:
         obtained={"multiplier_enters": enters, "objective_kept": kept},
         caption=(
             "The Lagrangian is fixed by the words around the lost formula: objective with "
-            "penalty, plus "
-            "lambda times the equality. In symbols its derivative by lambda is that equality, "
-            "and where "
-            "the equality holds lambda drops out. Nothing about the penalty is needed."
+            "penalty, plus lambda times the equality. In symbols its derivative by lambda is that "
+            "equality, and where the equality holds lambda drops out. Nothing about the penalty "
+            "is needed."
         ),
     )
 
@@ -126,10 +125,9 @@ def optimality_conditions(assumed: Assumed) -> Result:
         obtained={"residual": float(np.abs(F).max()), "better_nearby": float(gain)},
         caption=(
             "At the rest point of the network both derivatives are zero to "
-            f"{np.abs(F).max():.1e}. Of 200 "
-            "random neighbours that keep the tip velocity none has a smaller penalised "
-            "objective: the "
-            "objective is convex, so that the conditions are enough."
+            f"{np.abs(F).max():.1e}. Of 200 random neighbours that keep the tip velocity none has "
+            "a smaller penalised objective: the objective is convex, so that the conditions are "
+            "enough."
         ),
     )
 
@@ -147,10 +145,9 @@ def matrix_form(assumed: Assumed) -> Result:
         obtained={"equivalent": same(E * y - e, gradients())},
         caption=(
             "With E = [I, J^T; J, 0], y = [phi; lambda] and e = [-grad P; dr/dt] the printed "
-            "equation E y = e "
-            "is exactly the pair of derivatives set to zero, in symbols and for any penalty. "
-            "Since P "
-            "depends on phi, e depends on the unknown y: the equation is not linear."
+            "equation E y = e is exactly the pair of derivatives set to zero, in symbols and for "
+            "any penalty. Since P depends on phi, e depends on the unknown y: the equation is not "
+            "linear."
         ),
     )
 
@@ -184,9 +181,8 @@ def error_function(assumed: Assumed) -> Result:
         },
         caption=(
             f"The error that the code drives to zero is E y - e: in symbols, and to {worst:.1e} "
-            "of its size "
-            f"with the blocks built anew for {len(PENALTIES)} forms of the penalty. At the "
-            f"minimiser it is {rest:.1e}."
+            f"of its size with the blocks built anew for {len(PENALTIES)} forms of the penalty. "
+            f"At the minimiser it is {rest:.1e}."
         ),
     )
 
@@ -223,11 +219,10 @@ def matrix_blocks(assumed: Assumed) -> Result:
     return Result(
         obtained={"derivative": worst / size_of},
         caption=(
-            "Differentiating the error by the state gives E with the Hessian of the penalty "
-            "added to its "
-            f"identity block; differences of the error agree to {worst / size_of:.1e} of the "
-            "largest entry. "
-            "Without the Hessian the matrix is E itself, and no longer the derivative."
+            "Differentiating the error by the state gives E with the Hessian of the penalty added "
+            f"to its identity block; differences of the error agree to {worst / size_of:.1e} of "
+            "the largest entry. Without the Hessian the matrix is E itself, and no longer the "
+            "derivative."
         ),
     )
 

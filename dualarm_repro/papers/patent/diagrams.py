@@ -48,9 +48,8 @@ def flow_chart_figure(assumed: Assumed) -> Result:
         table=pd.DataFrame(rows, columns=["part", "step", "code"]),
         caption=(
             f"The method as it is run here: {counts[0]} steps that state the problem and "
-            f"{counts[1]} that "
-            "solve it, each with the function behind it. The printed drawing is not in the text "
-            "edition; its steps are, and every one of them has its code."
+            f"{counts[1]} that solve it, each with the function behind it. The printed drawing is "
+            "not in the text edition; its steps are, and every one of them has its code."
         ),
         alt="Flow chart with two columns of boxes: two steps that state the problem, five that "
         "solve it.",
@@ -74,8 +73,8 @@ def device(assumed: Assumed) -> Result:
         caption=(
             f"Processor {numbers['processor']} runs program {numbers['program']}, kept in memory "
             f"{numbers['memory']}; the program is the {runs} steps of Fig. 1. Any computer is "
-            "such a "
-            "device, and the drawing is not in the text edition, so there is nothing to compare."
+            "such a device, and the drawing is not in the text edition, so there is nothing to "
+            "compare."
         ),
         alt="Block diagram: a device that contains a processor and a memory, with the program in "
         "the memory.",
@@ -108,7 +107,7 @@ def ten_claims(assumed: Assumed) -> Result:
         table=pd.DataFrame(rows, columns=["claim", "code"]),
         caption=(
             f"{method} claims are on the method, one on a device and one on a storage medium. "
-            "Claims 2 to 8 "
-            f"lead to the {len(covered)} steps one by one; claims 1, 9 and 10 take them together."
+            f"Claims 2 to 8 lead to the {len(covered)} steps one by one; claims 1, 9 and 10 take "
+            "them together."
         ),
     )

@@ -41,8 +41,7 @@ def initial_state() -> Proof:
     exact = run(scenario, Settings())
     return Proof(
         "started from a zero state on a path that begins at full speed the network is off the "
-        "path by far "
-        "more than the exact controller on the same path",
+        "path by far more than the exact controller on the same path",
         network.largest_error > 10 * exact.largest_error,
         {"network_error": network.largest_error, "exact_error": exact.largest_error},
     )

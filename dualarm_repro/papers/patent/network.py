@@ -71,12 +71,10 @@ def error_decay(assumed: Assumed) -> Result:
     return Result(
         obtained={"defect": round(defect, 6), "start": float(np.abs(start).max())},
         caption=(
-            "On a problem that stands still every entry of the error follows d xi/dt = -gamma "
-            "e^t Psi(xi) to "
-            f"{defect:.1e} of its start (gamma = {network.gamma:g}, {network.activation}): the "
-            "state equation does "
-            "what the design asks for. For the linear activation the decay is exp(-gamma (e^t - "
-            "1))."
+            "On a problem that stands still every entry of the error follows d xi/dt = -gamma e^t "
+            f"Psi(xi) to {defect:.1e} of its start (gamma = {network.gamma:g}, "
+            f"{network.activation}): the state equation does what the design asks for. For the "
+            "linear activation the decay is exp(-gamma (e^t - 1))."
         ),
     )
 
@@ -137,11 +135,9 @@ def state_equation(assumed: Assumed) -> Result:
         obtained={"defect": round(worst, 6)},
         caption=(
             f"Moved along the arms' motion at t = {t:.2f} s, the error changes as -gamma e^t "
-            f"Psi(xi) to {worst:.1e} "
-            "of the largest entry at ten random states: M dy/dt = -dF/dt - gamma e^t Psi(F) with "
-            "the Hessian "
-            "of the penalty in M and every rate of the problem in dF/dt. Leaving out either "
-            "changes the decay."
+            f"Psi(xi) to {worst:.1e} of the largest entry at ten random states: M dy/dt = -dF/dt "
+            "- gamma e^t Psi(F) with the Hessian of the penalty in M and every rate of the "
+            "problem in dF/dt. Leaving out either changes the decay."
         ),
     )
 
@@ -180,12 +176,10 @@ def integration(assumed: Assumed) -> Result:
         measured={"evaluations": evaluations},
         caption=(
             "Robot and network as one differential equation, integrated by "
-            f"{assumed['integrator']} with "
-            f"{evaluations} evaluations for {scenario.period:g} s of motion: the first n entries "
-            "of y, "
-            f"summed up, are the joint angles to {defect:.1e} rad. The tips stay within "
-            f"{motion.largest_error:.1e} m of their circles and the arms "
-            f"{1e3 * motion.smallest_distance:.1f} mm apart."
+            f"{assumed['integrator']} with {evaluations} evaluations for {scenario.period:g} s of "
+            f"motion: the first n entries of y, summed up, are the joint angles to {defect:.1e} "
+            f"rad. The tips stay within {motion.largest_error:.1e} m of their circles and the "
+            f"arms {1e3 * motion.smallest_distance:.1f} mm apart."
         ),
     )
 
@@ -217,7 +211,7 @@ def growing_gain(assumed: Assumed) -> Result:
     )
     predicted = {g: divergence_time(g, CONTROL_STEP) for g in GAINS}
     curves = {
-        f"gamma {'e^t, ' if growing else ''}gamma = {g:g}": _curve(kind, g, growing)
+        f"{'growing' if growing else 'constant'} gain, gamma = {g:g}": _curve(kind, g, growing)
         for g in GAINS
         for growing in (True, False)
     }
@@ -233,12 +227,10 @@ def growing_gain(assumed: Assumed) -> Result:
         table=pd.DataFrame(rows, columns=["gamma [1/s]", "growing [s]", "constant [s]"]),
         caption=(
             f"From {START:g} to {tolerance:g} the error takes ln(1 + tau / gamma) seconds with "
-            "the growing gain and "
-            f"tau / gamma with the constant one (tau = {tau:.2f}, {name}), so growth always "
-            f"helps: by {saved[GAINS[0]]:.2f} s "
-            f"at gamma = {GAINS[0]:g} and {1e3 * saved[GAINS[-1]]:.1f} ms at {GAINS[-1]:g}. The "
-            "seconds are those of the moving robot. "
-            f"And the growth has an end: explicit steps of 1 ms are unstable after "
+            f"the growing gain and tau / gamma with the constant one (tau = {tau:.2f}, {name}), "
+            f"so growth always helps: by {saved[GAINS[0]]:.2f} s at gamma = {GAINS[0]:g} and "
+            f"{1e3 * saved[GAINS[-1]]:.1f} ms at {GAINS[-1]:g}. The seconds are those of the "
+            "moving robot. And the growth has an end: explicit steps of 1 ms are unstable after "
             f"{', '.join(f'{v:.1f}' for v in predicted.values())} s for gamma = "
             f"{', '.join(f'{g:g}' for g in GAINS)}."
         ),

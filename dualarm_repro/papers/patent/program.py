@@ -58,12 +58,9 @@ def forward_map(assumed: Assumed) -> Result:
         },
         caption=(
             f"The map from {system.nq} joint angles to {3 * len(system.arms)} tip coordinates "
-            "agrees with "
-            f"Pinocchio. It has no inverse: {np.linalg.norm(other - q):.2f} rad away lies "
-            "another posture "
-            "with the same tips, reached by a motion of the joints alone. That is why the text "
-            "turns "
-            "to velocities, although it words f as the inverse map."
+            f"agrees with Pinocchio. It has no inverse: {np.linalg.norm(other - q):.2f} rad away "
+            "lies another posture with the same tips, reached by a motion of the joints alone. "
+            "That is why the text turns to velocities, although it words f as the inverse map."
         ),
     )
 
@@ -94,10 +91,9 @@ def velocity_map(assumed: Assumed) -> Result:
     return Result(
         obtained={"difference": worst, "coupling": coupling},
         caption=(
-            "The words between the lost formulas say what is differentiated: f by time. The "
-            "block matrix "
-            f"of both Jacobians equals central differences of f to {worst:.1e} m/rad on 20 random "
-            "configurations."
+            "The words between the lost formulas say what is differentiated: f by time. The block "
+            f"matrix of both Jacobians equals central differences of f to {worst:.1e} m/rad on 20 "
+            "random configurations."
         ),
     )
 
@@ -138,13 +134,11 @@ def least_velocity(assumed: Assumed) -> Result:
             columns=["turn", "drift [rad]", "drift with repetitive term [rad]"],
         ),
         caption=(
-            "Least energy in the words of the text is the least norm of the joint velocity, "
-            "which under the "
-            "task alone is the pseudo-inverse solution. The price: after one closed turn with "
-            f"avoidance a joint is {drifts[0.0][0]:.2f} rad from its start, after five "
-            f"{drifts[0.0][-1]:.2f} "
-            "rad. With the pull lambda (q - q0), lambda = 2 1/s, it is at most "
-            f"{max(drifts[2.0]):.1e} rad."
+            "Least energy in the words of the text is the least norm of the joint velocity, which "
+            "under the task alone is the pseudo-inverse solution. The price: after one closed "
+            f"turn with avoidance a joint is {drifts[0.0][0]:.2f} rad from its start, after five "
+            f"{drifts[0.0][-1]:.2f} rad. With the pull lambda (q - q0), lambda = 2 1/s, it is at "
+            f"most {max(drifts[2.0]):.1e} rad."
         ),
     )
 
@@ -183,10 +177,8 @@ def joint_limits(assumed: Assumed) -> Result:
             "On a task of its own the pseudo-inverse takes a joint "
             f"{angle_excess(scenario, naive.q):.3f} rad beyond its range; with merged bounds the "
             f"nearest joint stays {-angle_excess(scenario, motion.q):.3f} rad inside. Limits of "
-            "angle are announced "
-            "in the text, and the inequality that follows is one on speed; bounds on speed alone "
-            "would "
-            "not hold the range, as the section on robustness shows."
+            "angle are announced in the text, and the inequality that follows is one on speed; "
+            "bounds on speed alone would not hold the range, as the section on robustness shows."
         ),
     )
 
@@ -222,13 +214,10 @@ def avoidance_rows(assumed: Assumed) -> Result:
         obtained={"gradient": gradient, "mesh_excess": excess, "rows": len(problem.h)},
         caption=(
             f"At the nearest posture of the frozen task {len(problem.h)} rows are active. Row "
-            "gradients "
-            f"agree with central differences of the distances to {gradient:.1e} m/rad, in "
-            "penetration "
-            f"as well. The vertices of the moving link meshes lie at least {-1e3 * excess:.2f} "
-            "mm inside the capsules. "
-            "How J_N combines vector and Jacobian, and how beta follows from the ranges, is not "
-            "in the text."
+            f"gradients agree with central differences of the distances to {gradient:.1e} m/rad, "
+            "in penetration as well. The vertices of the moving link meshes lie at least "
+            f"{-1e3 * excess:.2f} mm inside the capsules. How J_N combines vector and Jacobian, "
+            "and how beta follows from the ranges, is not in the text."
         ),
     )
 
@@ -283,11 +272,10 @@ def quadratic_program(assumed: Assumed) -> Result:
         ),
         caption=(
             f"{len(problems)} problems of the frozen task, up to "
-            f"{max(len(p.h) for p in problems)} avoidance "
-            f"rows: {len(rows)} solvers agree to {apart:.1e} rad/s, and the reference answers "
-            "satisfy the "
-            f"optimality conditions to {residual:.1e}. A task that no joint velocity can meet is "
-            "either answered with the slack it needs, which is reported, or refused."
+            f"{max(len(p.h) for p in problems)} avoidance rows: {len(rows)} solvers agree to "
+            f"{apart:.1e} rad/s, and the reference answers satisfy the optimality conditions to "
+            f"{residual:.1e}. A task that no joint velocity can meet is either answered with the "
+            "slack it needs, which is reported, or refused."
         ),
     )
 

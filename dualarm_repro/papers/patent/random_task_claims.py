@@ -42,12 +42,10 @@ def avoids(assumed: Assumed) -> Result:
         table=pd.DataFrame(smallest.items(), columns=["reading", "smallest distance [m]"]),
         caption=(
             f"On the frozen task the arms stay {1e3 * motion.smallest_distance:.1f} mm apart. Of "
-            "the random tasks "
-            f"{len(table)} collide without avoidance; with it none does: the smallest distance "
-            "of all is "
-            f"{1e3 * chosen:.1f} mm where the motion may stop, and {1e3 * smallest['slack']:.1f} "
-            "mm where the task yields "
-            "instead. A pair above d2 can always stop in time, since x = 0 satisfies its row."
+            f"the random tasks {len(table)} collide without avoidance; with it none does: the "
+            f"smallest distance of all is {1e3 * chosen:.1f} mm where the motion may stop, and "
+            f"{1e3 * smallest['slack']:.1f} mm where the task yields instead and joints run at "
+            "their speed limits. Above d2 standing still satisfies every row."
         ),
     )
 
@@ -90,14 +88,12 @@ def completes(assumed: Assumed) -> Result:
         ),
         caption=(
             f"Of {len(counted)} random tasks within reach {len(table)} collide without avoidance "
-            f"({len(table) / len(counted):.1%}). The QP completes {done['pair_normal']} of "
-            "these; in "
-            "the others task and avoidance exclude each other at some instant. Where the task then "
-            f"yields, {int(table['slack_completed'].sum())} run to their end, "
-            f"{share:.0%} of all within the tip error taken for accurate, while "
-            f"{large:.0%} leave the path by more than a centimetre. The scheme looks no step "
-            "ahead, "
-            "so completion is no property of it. The other readings of J_N complete "
+            f"({len(table) / len(counted):.1%}). The QP completes {done['pair_normal']} of these; "
+            "in the others task and avoidance exclude each other at some instant. Where the task "
+            f"then yields, {int(table['slack_completed'].sum())} run to their end, {share:.0%} of "
+            f"all within the tip error taken for accurate, while {large:.0%} leave the path by "
+            "more than a centimetre. The scheme looks no step ahead, so completion is no property "
+            "of it. The other readings of J_N complete "
             + ", ".join(f"{done[name]} ({_WORDS[name]})" for name in FORMS[1:])
             + "."
         ),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -45,13 +43,10 @@ from .scenario import (
     repelling,
     shoulder,
 )
+from .search_rules import nominal_values
 from .two_sided import truth
 
 _DIRECTIONS = 400
-
-
-def _nominal() -> dict[str, Any]:
-    return {key: entry.value for key, entry in REGISTRY.papers["qiu"].assumptions.items()}
 
 
 @REGISTRY.proves("qiu.start_tip")
@@ -95,18 +90,19 @@ def goal_out_of_reach() -> Proof:
 
 @REGISTRY.proves("qiu.singular_goal")
 def singular_goal() -> Proof:
-    """Singular values of the Jacobian at the nearest reachable posture and along the path used."""
+    """Singular values of the Jacobian nearest to the goal, at the start and along the path used."""
     arm = placed("master").arm
     best = nearest_posture(placed("master"), MASTER_GOAL, START)
     position = np.linalg.svd(arm.jacobian(best.q)[:3], compute_uv=False)
-    path = smooth(_nominal(), improved_plan(_nominal()))
+    path = smooth(nominal_values(), improved_plan(nominal_values()))
     along = np.linalg.svd(arm.jacobian(path), compute_uv=False)[:, -1]
+    start = np.linalg.svd(arm.jacobian(START), compute_uv=False)
     return Proof(
-        "where the flange is nearest to the printed goal the arm cannot move it further out: the "
-        "position "
-        "Jacobian is singular",
-        bool(position[-1] < 1e-3 * position[0]),
+        "where the flange is nearest to the printed goal the position Jacobian is singular, and at "
+        "the printed start, all joints zero, the whole Jacobian is, with axes 4 and 6 aligned",
+        bool(position[-1] < 1e-3 * position[0] and start[-1] < 1e-9 * start[0]),
         {
+            "smallest_at_the_printed_start": float(start[-1]),
             "position_singular_values": position.tolist(),
             "smallest_along_the_path_used": float(along.min()),
         },
@@ -157,7 +153,9 @@ def gains_against_points() -> Proof:
     """
     arm = placed("master")
     ratios = []
-    made = search_problem(arm, START, START, repelling(), settings(_nominal(), TRADITIONAL_VARIANT))
+    made = search_problem(
+        arm, START, START, repelling(), settings(nominal_values(), TRADITIONAL_VARIANT)
+    )
     target, gains = arm.placement.inverse().act(TRAP), np.full(len(made.points.joint), ETA0)
     for rotation in _rotations():
         pose = np.eye(4)
@@ -204,7 +202,7 @@ def goal_inside_range() -> Proof:
     search.
     """
     gaps = (np.linalg.norm(MASTER_GOAL - CENTRES, axis=1) - RADIUS).tolist()
-    plan = traditional_plan(_nominal())
+    plan = traditional_plan(nominal_values())
     failure = classify(plan)
     return Proof(
         "both spheres reach the goal with their repulsion, and the one-way search with the printed "
@@ -237,7 +235,7 @@ def control_point_frames() -> Proof:
 @REGISTRY.proves("qiu.hull_incomplete")
 def hull_incomplete() -> Proof:
     """How far links stick out of the hull over random postures."""
-    arm, values = placed("master"), _nominal()
+    arm, values = placed("master"), nominal_values()
     q = arm.arm.random_configurations(100, np.random.default_rng(SEED))
     sticking = protrusions(arm, q, {name: values[name] for name in HULL})
     always = float(sticking.max(axis=1).min())
@@ -257,7 +255,7 @@ def collision_scope() -> Proof:
     """The joint plan of both arms at face value: clear at the control points, not for whole
     links.
     """
-    plan = dual_plan(_nominal())
+    plan = dual_plan(nominal_values())
     check = executed(plan)
     seen = plan.slave.control_clearance
     return Proof(
@@ -272,7 +270,7 @@ def collision_scope() -> Proof:
 @REGISTRY.proves("qiu.smoothing_clearance")
 def smoothing_clearance() -> Proof:
     """Clearance before and after the spline, for growing mu."""
-    values = _nominal()
+    values = nominal_values()
     plan = improved_plan(values | reconstructed(values, ()))
     before = truth(plan).clearance
     changes = {}

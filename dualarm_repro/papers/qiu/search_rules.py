@@ -36,7 +36,7 @@ _MU = (0.0, 0.1, 1.0, 10.0, 100.0)
 )
 def next_configuration(assumed: Assumed) -> Result:
     """Steps of length alpha along the resultant until the error is below the tolerance."""
-    values = _nominal() | {k: assumed[k] for k in ("step_rule", "joint_tolerance")}
+    values = nominal_values() | {k: assumed[k] for k in ("step_rule", "joint_tolerance")}
     plan = traditional_plan(values | {"gain_ratio": 1e-4})
     steps = np.linalg.norm(np.diff(plan.path, axis=0), axis=1)
     error = float(np.abs(steps - plan.problem.settings.step.length).max())
@@ -54,7 +54,8 @@ def next_configuration(assumed: Assumed) -> Result:
     )
 
 
-def _nominal() -> dict[str, Any]:
+def nominal_values() -> dict[str, Any]:
+    """Values of all assumptions of the document."""
     return {key: entry.value for key, entry in REGISTRY.papers["qiu"].assumptions.items()}
 
 
@@ -161,7 +162,7 @@ def meeting_test(assumed: Assumed) -> Result:
 )
 def smoothing_criterion(assumed: Assumed) -> Result:
     """The library's spline against a direct minimisation of the criterion."""
-    path = improved_plan(_nominal()).path
+    path = improved_plan(nominal_values()).path
     mu, weight = assumed["smoothing_weight"], assumed["end_weight"]
     one, other = smoothed(path, mu, weight), smoothed_directly(path, mu, weight)
     return Result(
@@ -187,7 +188,7 @@ def smoothing_criterion(assumed: Assumed) -> Result:
 )
 def smoothing_sense(assumed: Assumed) -> Result:
     """Roughness of the fitted spline over mu."""
-    path = improved_plan(_nominal()).path
+    path = improved_plan(nominal_values()).path
     values = [roughness(smoothed_directly(path, mu, 1.0)) for mu in _MU]
     mu = assumed["smoothing_weight"]
     return Result(

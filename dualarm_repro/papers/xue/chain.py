@@ -68,8 +68,8 @@ def table_1(assumed: Assumed) -> Result:
         },
         table=table,
         caption=(
-            "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row too "
-            f"high under its own header. At the master's goal the two readings put the flange "
+            "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row "
+            f"too high under its own header. At the master's goal the two readings put the flange "
             f"{distance:.4f} m apart, so the document contradicts itself. Reach from the base: "
             f"{reach('matrices'):.3f} m by the matrices, {reach('table'):.3f} m by the table, "
             f"{reach('published'):.3f} m for the published robot, base height included."
@@ -98,8 +98,8 @@ def general_transform(assumed: Assumed) -> Result:
     return Result(
         obtained={"links_as_printed": counts[False], "links_with_alpha": counts[True]},
         caption=(
-            f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist angle "
-            f"alpha in place of the length a inside sine and cosine it gives {counts[True]}."
+            f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist "
+            f"angle alpha in place of the length a inside sine and cosine it gives {counts[True]}."
         ),
     )
 
@@ -177,8 +177,8 @@ def end_effector_pose(assumed: Assumed) -> Result:
             "tcp_goal": goal.tolist(),
         },
         caption=(
-            "The product of the six printed matrices, evaluated in symbols, agrees with Pinocchio and "
-            f"with the batch kernel on {len(q)} random configurations to "
+            "The product of the six printed matrices, evaluated in symbols, agrees with Pinocchio "
+            f"and with the batch kernel on {len(q)} random configurations to "
             f"{abs(symbolic - pinocchio).max():.1e}. The master's flange goes from "
             f"({point(start)}) m to ({point(goal)}) m."
         ),

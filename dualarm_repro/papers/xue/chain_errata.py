@@ -32,8 +32,8 @@ def table1_shift() -> Proof:
     matrices = printed_parameters()["a"]
     ends = {pose: _difference(q) for pose, q in (("start", MASTER_START), ("goal", MASTER_GOAL))}
     return Proof(
-        "the printed column equals that of the matrices moved up one row; the readings agree at the "
-        "start, where only the sum of the lengths counts, and not at the goal",
+        "the printed column equals that of the matrices moved up one row; the readings agree at "
+        "the start, where only the sum of the lengths counts, and not at the goal",
         column == [*matrices[1:], 0.0]
         and column != matrices
         and ends["start"] < 1e-12 < ends["goal"],

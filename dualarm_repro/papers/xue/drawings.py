@@ -47,12 +47,12 @@ def dimensions(assumed: Assumed) -> Result:
         caption=(
             "Published ES165D in the maker's upright posture. The matrices share "
             f"{', '.join(SHARED)} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
-            f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The text "
-            "edition carries no number of the drawing, so agreement with it cannot be decided."
+            f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The "
+            "text edition carries no number of the drawing, so agreement with it cannot be decided."
         ),
         alt=(
-            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist to "
-            "the flange, with six dimension lines in millimetres."
+            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
+            "to the flange, with six dimension lines in millimetres."
         ),
         figure=lambda: _draw_dimensions(published),
     )
@@ -84,9 +84,9 @@ def link_frames(assumed: Assumed) -> Result:
         obtained={"origins": frames[:, :3, 3].tolist(), "axis_error": error},
         table=table,
         caption=(
-            "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm hangs "
-            f"down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common origin: "
-            f"{_common_origins(frames)}. The drawing is not in the text edition."
+            "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm "
+            f"hangs down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common "
+            f"origin: {_common_origins(frames)}. The drawing is not in the text edition."
         ),
         alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
         figure=lambda: frames_figure(frames, 0.25),
@@ -127,9 +127,10 @@ def both_arms(assumed: Assumed) -> Result:
     return Result(
         obtained={"flanges": {k: v.tolist() for k, v in tips.items()}, "mirror_error": error},
         caption=(
-            f"Master and mirrored slave at the printed {posture}, bases {distance:g} m apart (assumed); "
-            f"flanges at ({point(tips['master'], 3)}) and ({point(tips['slave'], 3)}) m. Neither the "
-            "base poses nor the posture shown are printed, so the figure cannot be compared."
+            f"Master and mirrored slave at the printed {posture}, bases {distance:g} m apart "
+            f"(assumed); flanges at ({point(tips['master'], 3)}) and ({point(tips['slave'], 3)}) "
+            "m. Neither the base poses nor the posture shown are printed, so the figure cannot be "
+            "compared."
         ),
         alt="Stick figures of two six-joint arms, mirror images of each other, side by side.",
         figure=lambda: stick_figure(arms, elev=18, azim=-35),
@@ -165,11 +166,11 @@ def _frame_columns() -> list[str]:
 def _draw_dimensions(size: dict[str, float]) -> object:
     """Skeleton in the maker's upright posture, drawn from the lengths alone."""
     base, axis_s = np.array([0.0, 0.0]), np.array([0.0, size["d1"]])
-    axis_l = axis_s + [size["a1"], 0.0]
-    axis_u = axis_l + [0.0, size["a2"]]
-    corner = axis_u + [0.0, size["a3"]]
-    wrist = corner + [size["d4"], 0.0]
-    flange = wrist + [size["d6"], 0.0]
+    axis_l = axis_s + np.array([size["a1"], 0.0])
+    axis_u = axis_l + np.array([0.0, size["a2"]])
+    corner = axis_u + np.array([0.0, size["a3"]])
+    wrist = corner + np.array([size["d4"], 0.0])
+    flange = wrist + np.array([size["d6"], 0.0])
     outline = np.array([base, axis_s, axis_l, axis_u, corner, wrist, flange])
     return dimension_drawing(
         outline,

@@ -1,4 +1,4 @@
-"""The three readings of the master arm: matrices (2)-(7), Table 1 literally, the published robot."""
+"""Three readings of the master arm: matrices (2)-(7), Table 1 literally, the published robot."""
 
 from __future__ import annotations
 

@@ -11,11 +11,11 @@ from ...arms import load_arm
 from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result
 from ..wording import point
 from .printed_chain import (
-    A,
     ALPHA,
-    D,
     LINKS,
     THETA,
+    A,
+    D,
     equal,
     general_matrix,
     joint_variable,
@@ -52,8 +52,9 @@ def spherical_wrist(assumed: Assumed) -> Result:
     return Result(
         obtained={"origins_coincide": meets, "spread": spread},
         caption=(
-            "The last three joint axes meet in one point for every configuration, proved in symbols; "
-            f"in Pinocchio they miss a common point by at most {spread:.1e} m on 1000 random poses."
+            "The last three joint axes meet in one point for every configuration, proved in "
+            f"symbols; in Pinocchio they miss a common point by at most {spread:.1e} m on 1000 "
+            "random poses."
         ),
     )
 
@@ -77,9 +78,9 @@ def mirror(assumed: Assumed) -> Result:
     return Result(
         obtained={"symbolic": symbolic, "pinocchio": difference, "slave_goal": goal.tolist()},
         caption=(
-            "Negating alpha and theta is exactly the reflection in the xz plane of the base, link by "
-            f"link in symbols and to {difference:.1e} between the two models. At the mirrored goal "
-            f"the slave's flange is at ({point(goal)}) m."
+            "Negating alpha and theta is exactly the reflection in the xz plane of the base, link "
+            f"by link in symbols and to {difference:.1e} between the two models. At the mirrored "
+            f"goal the slave's flange is at ({point(goal)}) m."
         ),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache, partial
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -115,7 +116,7 @@ def both_methods(assumed: Assumed) -> Result:
         alt=(
             "Bars with intervals: share of trials that miss, per method and rule of the joint step."
         ),
-        figure=lambda: shares_figure(many, MISS_LABEL),
+        figure=lambda: shares_figure(_named(many), MISS_LABEL),
     )
 
 
@@ -308,14 +309,22 @@ def _likelier(text: Share, table: Share) -> str:
     return "The intervals overlap: the lottery does not tell the two readings apart."
 
 
+def _named(shares: Mapping[str, Mapping[str, Share]]) -> dict[str, dict[str, Share]]:
+    """Shares by rule and method under the titles of both."""
+    return {
+        rule.replace("_", " "): {METHODS[name].title: share for name, share in row.items()}
+        for rule, row in shares.items()
+    }
+
+
 def _certified(trials: Trials | None) -> str:
     """How many of the runs called trapped are proved to be, for a caption."""
     if trials is None:
         return ""
     found = trials.traditional
     return (
-        f"Of {found.trapped} that stand still {found.minima} are certified to lie in a minimum "
-        f"(|dU/dq| at most {found.gradient:.1e} where they stand). "
+        f"Of {found.trapped} that stand still {found.minima} are certified to lie at a minimum "
+        f"or right beside one (|dU/dq| at most {found.gradient:.1e} where they stand). "
     )
 
 

@@ -23,6 +23,8 @@ TRIALS = 10
 #: |dU/dq| below which a configuration counts as a minimum; the gradient at the start is about ten.
 FLAT = 1e-3
 _POLISH = 100
+#: Joint distance within which a minimum counts as that of a run [rad].
+_NEAR = 0.1
 #: Reason of a run whose perturbed start touches an obstacle.
 TOUCHES = "start-touches-obstacle"
 
@@ -196,8 +198,9 @@ def summary(case: Case, method: str, runs: Runs) -> Outcome:
 def _minima(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> int:
     """How many runs that stand still do so in a minimum of U_att + U_rep, all obstacles at rest.
 
-    That is certain where |dU/dq| <= FLAT; elsewhere a quasi-Newton descent starts there, and must
-    end with a gradient that small and away from the goal.
+    That is certain where |dU/dq| <= FLAT. A run that still creeps when its motion is judged to have
+    stopped lies next to one if a descent that may not leave the ``_NEAR`` neighbourhood ends inside
+    it, with a gradient that small and away from the goal.
     """
     count = int((gradient <= FLAT).sum())
     if count == len(last):
@@ -212,8 +215,9 @@ def _minima(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> 
             q,
             (rest,),
             jac=made.field.gradient,
-            method="BFGS",
-            options={"gtol": 0.1 * FLAT, "maxiter": _POLISH},
+            method="L-BFGS-B",
+            bounds=np.column_stack([q - _NEAR, q + _NEAR]),
+            options={"gtol": 0.1 * FLAT, "ftol": 0.0, "maxiter": _POLISH},
         ).x
         flat = np.linalg.norm(made.field.gradient(end, rest)) <= FLAT
         count += bool(flat and not within(*made.errors(end), *made.tolerances))

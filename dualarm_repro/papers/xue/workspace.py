@@ -90,14 +90,15 @@ def master_cloud(assumed: Assumed) -> Result:
         caption=(
             f"{len(points)} random configurations reach x from {size.lower[0]:.2f} to "
             f"{size.upper[0]:.2f}, y from {size.lower[1]:.2f} to {size.upper[1]:.2f} and z from "
-            f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from the "
-            f"base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting voxels of "
-            f"the cloud gives anything from {voxels[-1].volume:.0f} to {voxels[0].volume:.0f} m^3, "
-            "depending on their size. Neither joint ranges nor extents are printed to compare with."
+            f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from "
+            f"the base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting "
+            f"voxels of the cloud gives anything from {voxels[-1].volume:.0f} to "
+            f"{voxels[0].volume:.0f} m^3, depending on their size. "
+            "Neither joint ranges nor extents are printed to compare with."
         ),
         alt=(
-            "Scatter of the flange positions of one arm in three dimensions, a body of rotation about "
-            "the vertical axis; beside it its half section, and volume over cell size."
+            "Scatter of the flange positions of one arm in three dimensions, a body of rotation "
+            "about the vertical axis; beside it its half section, and volume over cell size."
         ),
         figure=lambda: volume_figure(points, body, voxels),
     )
@@ -165,9 +166,10 @@ def both_clouds(assumed: Assumed) -> Result:
             ]
         ),
         caption=(
-            f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud lies "
-            f"in the slave's workspace (95 % interval {shares[0].low:.1%} to {shares[0].high:.1%}) "
-            f"and {shares[1].value:.1%} of the slave's in the master's: the clouds overlap in part."
+            f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud "
+            f"lies in the slave's workspace (95 % interval {shares[0].low:.1%} to "
+            f"{shares[0].high:.1%}) and {shares[1].value:.1%} of the slave's in the "
+            "master's: the clouds overlap in part."
         ),
         alt="Point clouds of two arms from above and from the front, overlapping in the middle.",
         figure=lambda: cloud_figure(clouds(), (MASTER, SLAVE)),
