@@ -108,6 +108,12 @@ class Registry:
         for paper in sorted(found, key=lambda paper: (paper.document.order, paper.document.id)):
             self.papers[paper.document.id] = paper
 
+    def paper(self, name: str) -> PaperFile:
+        """A document; a process that has read none yet, such as a worker of a study, reads them."""
+        if not self.papers:
+            self.load()
+        return self.papers[name]
+
     @property
     def items(self) -> dict[str, Item]:
         """All items by full id, in the order of the documents."""

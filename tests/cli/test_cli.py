@@ -88,6 +88,10 @@ def test_verify_and_sensitivity(dualarm):
     code, out, _ = dualarm("sensitivity", "xue.claim_overlap", "--samples", 8, "--json")
     assert code == 0
     assert json.loads(out)["robustness"]["samples"] == 8
+    code, out, _ = dualarm("sensitivity", "qiu.eq05")  # none in the book
+    assert code == 0
+    assert "of 16 draws" in out
+    assert "no sampled assumption" in dualarm("sensitivity", "xue.eq01")[1]
 
 
 def test_cite(dualarm):

@@ -15,6 +15,7 @@ checks = partial(REGISTRY.checks, page="pan/cell")
 
 @checks(
     "pan.claim_bases",
+    samples=32,
     rules=[Adopts(key=name, to=name, label=f"{name} [m]") for name in ("base1", "base2", "base3")],
 )
 def positions(assumed: Assumed) -> Result:
@@ -34,6 +35,7 @@ def positions(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq_base",
+    samples=32,
     rules=[
         Rounds(
             key="matrix",

@@ -121,6 +121,7 @@ def workpiece_pose(assumed: Assumed) -> Result:
 def _closure(item: str, robot: int) -> None:
     @checks(
         item,
+        samples=32,
         rules=[Bounded(key="residual", high=1e-9, label="largest residual along the job [m]")],
     )
     def closure(assumed: Assumed) -> Result:
@@ -144,6 +145,7 @@ _closure("pan.eq05", 1)
 
 @checks(
     "pan.eq06",
+    samples=32,
     rules=[Bounded(key="residual", high=1e-9, label="tip of the torch misses p_w by at most [m]")],
 )
 def seam_in_world(assumed: Assumed) -> Result:
@@ -162,6 +164,7 @@ def seam_in_world(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq07",
+    samples=32,
     rules=[Bounded(key="residual", high=1e-9, label="p_B = T_Bc p_c holds for the welder to [m]")],
 )
 def seam_in_base(assumed: Assumed) -> Result:
@@ -183,6 +186,7 @@ def seam_in_base(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq08",
+    samples=32,
     rules=[
         Bounded(key="residual", high=1e-9, label="T_Bw T_wc is the pose the carriers hold, to"),
         Bounded(key="other", low=0.1, label="with the other reading of T_Bw it is off by [m]"),
@@ -212,6 +216,7 @@ def workpiece_in_base(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_tight",
+    samples=32,
     rules=[
         Bounded(key="shift", high=1e-9, label="relative displacement of both flanges [m]"),
         Bounded(key="turn", high=1e-9, label="relative rotation of both flanges"),

@@ -31,6 +31,7 @@ _ROWS = {"translational": 3, "full": 6}
 
 @checks(
     "pan.fig01",
+    samples=32,
     rules=[
         Bounded(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
         NeedsPrinted(key="drawing", label="the drawing"),
@@ -54,6 +55,7 @@ def welding_cell(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig02",
+    samples=32,
     rules=[
         Bounded(key="closure", high=1e-9, label="p2 + R r - p closes for both carriers, to [m]"),
         NeedsPrinted(key="drawing", label="the drawing"),
@@ -79,6 +81,7 @@ def position_vectors(assumed: Assumed) -> Result:
 
 @REGISTRY.checks(
     "pan.fig03",
+    samples=32,
     page="pan/measure",
     rules=[
         Bounded(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
@@ -118,6 +121,7 @@ def three_ellipsoids(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig04",
+    samples=32,
     rules=[
         Is(key="feasible", value=True, label="the stand-in cell can do the job where it is drawn"),
         NeedsPrinted(key="picture", label="the picture"),
@@ -141,6 +145,7 @@ def real_system(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig09",
+    samples=32,
     rules=[
         Bounded(
             key="axis_error", high=1e-12, label="each z axis is the one its joint turns about, to"
@@ -199,6 +204,7 @@ def spatial_model(assumed: Assumed) -> Result:
 
 @checks(
     "pan.tab_none",
+    samples=32,
     rules=[
         Is(key="spherical_wrist", value=True, label="axes 4, 5 and 6 meet in one point"),
         NeedsPrinted(key="parameters", label="parameters and joint limits of the ER16"),

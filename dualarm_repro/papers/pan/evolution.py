@@ -74,6 +74,7 @@ def runs_of(assumed: Mapping[str, Any]) -> Runs:
 
 @checks(
     "pan.fig11",
+    samples=32,
     rules=[
         Is(
             key="named_steps",

@@ -56,6 +56,7 @@ def saddle_curve(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_theta_range",
+    samples=32,
     rules=[Adopts(key="theta", to="theta", label="range of theta that the seam covers [rad]")],
 )
 def theta_range(assumed: Assumed) -> Result:
@@ -73,6 +74,7 @@ def theta_range(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig05",
+    samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NeedsPrinted(key="radii", label="the radii and lengths of the pipes"),
@@ -100,6 +102,7 @@ def workpiece(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig06",
+    samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NeedsPrinted(key="radii", label="the radii"),
@@ -123,6 +126,7 @@ def curve(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig07",
+    samples=32,
     rules=[
         Bounded(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
         NeedsPrinted(key="posture", label="the rule of the flat position"),
@@ -151,6 +155,7 @@ def flat_points(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig08",
+    samples=32,
     rules=[
         Bounded(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
         NeedsPrinted(key="position", label="the initial position used"),

@@ -293,6 +293,7 @@ def system_measure(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_beta_rule",
+    samples=32,
     rules=[
         Bounded(key="cancels", high=1e-12, label="(16) with and without V_int differs by at most"),
         Is(

@@ -12,13 +12,13 @@ from ...ledger import REGISTRY
 
 def nominal_values() -> dict[str, Any]:
     """Every assumption of the document with its declared value."""
-    entries = REGISTRY.papers["pan"].assumptions
+    entries = REGISTRY.paper("pan").assumptions
     return {key: entry.value for key, entry in entries.items()}
 
 
 def plausible(key: str, share: float) -> Any:
     """The plausible value of an assumption at a share in [0, 1) of its range or choices."""
-    entry = REGISTRY.papers["pan"].assumptions[key]
+    entry = REGISTRY.paper("pan").assumptions[key]
     if entry.range is not None:
         low, high = entry.range
         return float(low + share * (high - low))
@@ -27,7 +27,7 @@ def plausible(key: str, share: float) -> Any:
 
 def alternatives(key: str, count: int) -> list[Any]:
     """``count`` values over the range of an assumption, or all of its choices."""
-    entry = REGISTRY.papers["pan"].assumptions[key]
+    entry = REGISTRY.paper("pan").assumptions[key]
     if entry.range is not None:
         return [float(value) for value in np.linspace(*entry.range, count)]
     return list(entry.choices)
@@ -43,7 +43,7 @@ class Declared(Mapping[str, Any]):
         self._keys = keys
 
     def __getitem__(self, key: str) -> Any:
-        entry = REGISTRY.papers["pan"].assumptions[key]
+        entry = REGISTRY.paper("pan").assumptions[key]
         return {"value": entry.value, "range": entry.range, "choices": entry.choices}
 
     def __iter__(self) -> Iterator[str]:

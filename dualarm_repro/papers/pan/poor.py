@@ -126,6 +126,7 @@ def near_zero(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_unstable_b",
+    samples=32,
     rules=[
         Bounded(
             key="ratio",

@@ -32,6 +32,7 @@ _CONSTRAINTS = {
 
 @checks(
     "pan.eq_opt",
+    samples=32,
     rules=[
         Bounded(key="feasible_share", low=1e-4, high=0.9999, label="feasible share of the region"),
         Is(key="interior", value=True, label="the optimum lies inside the region, not on its edge"),
@@ -72,6 +73,7 @@ def problem(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_constraints",
+    samples=32,
     rules=[
         Is(key="count", to="count", label="constraints tested"),
         Bounded(key="separation", low=1e-9, label="smallest separation at the optimum [m]"),
@@ -123,6 +125,7 @@ def constraints(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_optimum",
+    samples=32,
     rules=[
         Bounded(
             key="readings_near",
@@ -188,6 +191,7 @@ def printed_point(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig16",
+    samples=32,
     rules=[
         Bounded(
             key="smallest", low=0.01, label="smallest manipulability of a robot on the seam [m^3]"
@@ -218,6 +222,7 @@ def optimal_curves(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig17",
+    samples=32,
     rules=[
         Bounded(
             key="largest_step", high=0.6, label="largest step of a joint between seam points [rad]"

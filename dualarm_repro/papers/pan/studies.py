@@ -87,7 +87,7 @@ def _evolve(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
 
 def _sensitivity_cells() -> list[dict[str, Any]]:
     """The declared assumptions, then one of them changed at a time."""
-    entries = REGISTRY.papers["pan"].assumptions
+    entries = REGISTRY.paper("pan").assumptions
     changes = [
         {"assumption": key, "value": str(value)}
         for key in (*_JOB, *_MEASURE)

@@ -78,6 +78,7 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
 
 @checks(
     "patent.claim_efficient",
+    samples=32,
     rules=[
         Bounded(
             key="network_error",

@@ -25,6 +25,7 @@ checks = partial(REGISTRY.checks, page="qiu/master_slave")
 
 @checks(
     "qiu.fig15",
+    samples=32,
     rules=[
         Is(key="joined", value=True, label="the slave's halves meet"),
         NeedsPrinted(key="curves", label="the curves"),
@@ -60,6 +61,7 @@ def slave_joints(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig16",
+    samples=32,
     rules=[
         Bounded(key="end_error", high=1e-3, label="distance of the ends to start and goal [m]"),
         NeedsPrinted(key="curves", label="the curves"),
@@ -94,6 +96,7 @@ def slave_coordinates(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig17",
+    samples=32,
     rules=[
         Is(key="joined", value=True, label="both arms have a path"),
         NeedsPrinted(key="time_scale", label="a common time scale"),

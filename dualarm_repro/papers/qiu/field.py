@@ -94,6 +94,7 @@ def principle(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig05",
+    samples=32,
     rules=[
         Is(key="joints", to="joints", label="joints whose origins are the control points"),
         NeedsPrinted(key="positions", label="where the origins of the joints are"),
@@ -164,6 +165,7 @@ def resultant(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq05",
+    samples=32,
     rules=[
         Bounded(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
         Bounded(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
@@ -198,6 +200,7 @@ def attractive_potential(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq06",
+    samples=32,
     rules=[
         Bounded(key="difference", high=1e-6, label="force against finite differences, relative"),
         Bounded(key="largest_over_bound", high=1.0 + 1e-12, label="largest force over its bound"),
@@ -226,6 +229,7 @@ def attractive_force(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq07",
+    samples=32,
     rules=[
         Bounded(key="at_range", high=1e-12, label="value at the end of the range"),
         Is(key="grows", value=True, label="it grows without bound towards the obstacle"),
@@ -255,6 +259,7 @@ def repulsive_potential(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq08",
+    samples=32,
     rules=[
         Bounded(
             key="direction", high=1e-9, label="printed direction against the slope of the distance"
@@ -298,6 +303,7 @@ def repulsive_force(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq09",
+    samples=32,
     rules=[
         Bounded(
             key="difference", high=1e-5, label="joint forces against finite differences, relative"

@@ -31,6 +31,7 @@ _PLANE, _FACE, _CAPSULE = 6, 60, 30
 
 @checks(
     "qiu.fig09",
+    samples=32,
     rules=[
         Bounded(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
         NeedsPrinted(key="radii", label="the radii of the circles"),

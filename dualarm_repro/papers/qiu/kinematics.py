@@ -72,6 +72,7 @@ def dimensions(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig02",
+    samples=32,
     rules=[
         Bounded(
             key="convention_difference",
@@ -108,6 +109,7 @@ def link_frames(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.tab01",
+    samples=32,
     rules=[
         Bounded(
             key="second_model",
@@ -153,6 +155,7 @@ def table_1(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq01",
+    samples=32,
     rules=[
         Is(key="product_is_arm", value=True, label="link transforms multiply to the arm's T(q)"),
         Is(key="rotations_orthonormal", value=True, label="every link transform is a rigid motion"),
@@ -183,6 +186,7 @@ def link_transform(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq02",
+    samples=32,
     rules=[
         Bounded(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
         Bounded(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),

@@ -181,6 +181,7 @@ def _gain_runs(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
 
 @checks(
     "qiu.fig06",
+    samples=32,
     rules=[
         Bounded(key="flips_constant", low=5, label="flips of the resultant with constant gain"),
         Bounded(key="flips_ratio", high=0.5, label="flips with variable gain over those without"),

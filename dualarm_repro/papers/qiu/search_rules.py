@@ -56,11 +56,12 @@ def next_configuration(assumed: Assumed) -> Result:
 
 def nominal_values() -> dict[str, Any]:
     """Values of all assumptions of the document."""
-    return {key: entry.value for key, entry in REGISTRY.papers["qiu"].assumptions.items()}
+    return {key: entry.value for key, entry in REGISTRY.paper("qiu").assumptions.items()}
 
 
 @checks(
     "qiu.eq13",
+    samples=32,
     rules=[
         Bounded(
             key="difference", high=1e-9, label="steps of the forward half against the formula [rad]"
@@ -76,6 +77,7 @@ def forward_update(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq14",
+    samples=32,
     rules=[
         Bounded(
             key="difference",

@@ -150,6 +150,7 @@ def _sweep_figure() -> Any:
 
 @checks(
     "qiu.claim_success_rate",
+    samples=32,
     rules=[
         Bounded(key="rate_difference", low=1e-9, label="success rate, improved minus traditional"),
         Bounded(
@@ -206,6 +207,7 @@ def success_and_smoothness(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.claim_local_min",
+    samples=32,
     rules=[
         Bounded(key="rescued", low=1, label="failed one-way searches that two-sided ones solve"),
         Bounded(

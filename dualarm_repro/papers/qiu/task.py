@@ -104,6 +104,7 @@ def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
 
 @checks(
     "qiu.claim_goal",
+    samples=32,
     rules=[
         Adopts(key="tcp", to="tcp", label="flange at the goal that is planned to [m]"),
         Is(key="within_limits", value=True, label="the goal posture is within the joint limits"),
@@ -225,6 +226,7 @@ def slave_task(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.claim_goals15",
+    samples=32,
     rules=[
         Adopts(key="count", to="count", label="number of goals"),
         Bounded(
@@ -255,7 +257,9 @@ def goals_15(assumed: Assumed) -> Result:
     )
 
 
-@inputs("qiu.claim_alpha0", rules=[Adopts(key="alpha0", to="alpha0", label="first step")])
+@inputs(
+    "qiu.claim_alpha0", samples=32, rules=[Adopts(key="alpha0", to="alpha0", label="first step")]
+)
 def first_step(assumed: Assumed) -> Result:
     """The first step, and whether its unit makes sense."""
     unit = assumed["angle_unit"]
@@ -273,7 +277,9 @@ def first_step(assumed: Assumed) -> Result:
     )
 
 
-@inputs("qiu.claim_d", rules=[Adopts(key="d", to="d", label="threshold of the attraction")])
+@inputs(
+    "qiu.claim_d", samples=32, rules=[Adopts(key="d", to="d", label="threshold of the attraction")]
+)
 def threshold(assumed: Assumed) -> Result:
     """The threshold d, and the bound on the attraction it gives."""
     unit, measure = assumed["angle_unit"], assumed["attraction_form"]
@@ -285,7 +291,9 @@ def threshold(assumed: Assumed) -> Result:
     )
 
 
-@inputs("qiu.claim_zeta", rules=[Adopts(key="zeta", to="zeta", label="attractive gain")])
+@inputs(
+    "qiu.claim_zeta", samples=32, rules=[Adopts(key="zeta", to="zeta", label="attractive gain")]
+)
 def attractive_gain(assumed: Assumed) -> Result:
     """The attractive gain."""
     ratio = assumed["gain_ratio"]
@@ -329,6 +337,7 @@ def repulsion_range(assumed: Assumed) -> Result:
 
 @inputs(
     "qiu.claim_kappa_range",
+    samples=32,
     rules=[
         Is(key="inside", value=True, role=Role.ADOPTS, label="kappa lies in the printed interval"),
     ],
@@ -348,6 +357,7 @@ def kappa_range(assumed: Assumed) -> Result:
 
 @inputs(
     "qiu.claim_tau_order",
+    samples=32,
     rules=[Is(key="ordered", value=True, role=Role.ADOPTS, label="weights in the printed order")],
 )
 def weight_order(assumed: Assumed) -> Result:

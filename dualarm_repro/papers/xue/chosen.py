@@ -47,7 +47,7 @@ class Chosen(Mapping[str, Any]):
 
 def assumption(name: str) -> Any:
     """The value of an assumption of the document."""
-    return REGISTRY.papers["xue"].assumptions[name].value
+    return REGISTRY.paper("xue").assumptions[name].value
 
 
 def nominal() -> Case:

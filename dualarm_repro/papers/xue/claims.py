@@ -91,6 +91,7 @@ def _trap(
 
 @checks(
     "xue.claim_no_ik",
+    samples=32,
     rules=[
         Is(
             key="improved_plan", value=0, label="calls of inverse kinematics while (13)-(16) is run"
@@ -105,14 +106,14 @@ def _trap(
 )
 def without_inverse_kinematics(assumed: Assumed) -> Result:
     """Calls of the closed-form inverse, counted on a copy of the slave's arm."""
-    case = Case.of(assumed)
+    case, reading = Case.of(assumed), assumed["classical_method"]
     placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
     if obstacles is None or slave_plan(case) is None:
         nothing = {"improved_plan": None, "traditional_plan": None, "postures": None}
         return Result(nothing, NOTHING)
     calls = {
         "improved_plan": improved(case.method, case.layout.window_centre, placed.goal),
-        "traditional_plan": traditional(case.method, assumed["classical_method"]),
+        "traditional_plan": traditional(case.method, reading),
     }
     counted, counter = _counting(placed)
     for target in case.layout.slave_points():

@@ -95,6 +95,7 @@ def link_frames(assumed: Assumed) -> Result:
 
 @checks(
     "xue.fig03",
+    samples=32,
     rules=[
         Bounded(
             key="mirror_error",

@@ -21,6 +21,7 @@ checks = partial(REGISTRY.checks, page="xue/scene")
 
 @checks(
     "xue.fig04",
+    samples=32,
     rules=[
         Rounds(key="start", to="start", label="Start in the figure"),
         Rounds(key="end", to="end", label="End in the figure"),
@@ -79,7 +80,9 @@ def gains(assumed: Assumed) -> Result:
 
 
 def _register_slave_point(item: str, field: str, name: str) -> None:
-    @checks(item, rules=[Adopts(key="position", to="position", label=f"{name} used [m]")])
+    @checks(
+        item, samples=32, rules=[Adopts(key="position", to="position", label=f"{name} used [m]")]
+    )
     def slave_point(assumed: Assumed) -> Result:
         unit, layout = assumed["length_unit"], Layout.of(assumed)
         slave = placed_slave(layout)
@@ -107,6 +110,7 @@ _register_slave_point("xue.claim_slave_end", "goal", "End")
 
 @checks(
     "xue.claim_equal_speed",
+    samples=32,
     rules=[
         Is(key="equal", value=True, role=Role.ADOPTS, label="equal speed, in the sense assumed")
     ],

@@ -103,7 +103,7 @@ def stop_at_zero() -> Proof:
     """Where a trapped run stands still the potential is positive."""
     obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
     return Proof(
-        "a run that stands still in a minimum has a positive potential and a vanishing gradient",
+        "where a run stands still short of the goal the gradient vanishes, not the potential",
         obtained["at_trap"] > 0.01 and obtained["gradient"] < FLAT,
         obtained,
     )

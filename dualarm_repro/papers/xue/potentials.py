@@ -195,6 +195,7 @@ def total_potential(assumed: Assumed) -> Result:
 
 @checks(
     "xue.eq13",
+    samples=32,
     rules=[
         _VALUE(),
         _GRADIENT(),

@@ -55,6 +55,12 @@ def lottery_shares(reading: str) -> dict[str, Share]:
     return {name: share(mask.sum(), len(mask)) for name, mask in outcomes.items()}
 
 
+def held_share(method: str = "traditional") -> Share:
+    """Share of the runs that stand still which stay after small pushes too."""
+    table = lottery_table()
+    return share(table[f"{method}_held"].sum(), table[f"{method}_trapped"].sum())
+
+
 def successful() -> pd.DataFrame:
     """Arrangements in which the end effectors also do what Figs 8, 10 and 11 show."""
     table = lottery_table()

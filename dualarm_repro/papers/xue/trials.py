@@ -20,11 +20,16 @@ from .methods import improved, joint_term_only, traditional
 from .motions import Case, slave_obstacles
 
 TRIALS = 10
-#: |dU/dq| below which a configuration counts as a minimum; the gradient at the start is about ten.
+#: |dU/dq| below which a configuration counts as stationary; the gradient at the start is about ten.
 FLAT = 1e-3
 _POLISH = 100
-#: Joint distance within which a minimum counts as that of a run [rad].
+#: Joint distance within which a stationary point counts as that of a run [rad].
 _NEAR = 0.1
+#: Size of a push at rest [rad], how many there are, and the share of the motion that counts as rest
+#: of any other run after it: a saddle is left slowly.
+PUSH = 1e-3
+_PUSHES = 8
+_PATIENCE = 1e-3
 #: Reason of a run whose perturbed start touches an obstacle.
 TOUCHES = "start-touches-obstacle"
 
@@ -79,7 +84,8 @@ class Outcome(NamedTuple):
     """Trials of one method.
 
     ``missed`` counts the runs that did not arrive, ``trapped`` those of them that were seen to
-    stand still, ``minima`` those of these that are certified to lie in a minimum of the potential.
+    stand still, ``stationary`` those of these where the gradient is certified to vanish, and
+    ``held`` those that stay after small pushes too: a saddle does not hold an arm for good.
     ``used`` and ``rescued``: the virtual point acted, and acted with success. ``gradient`` is the
     largest |dU/dq| where a run stood still.
     """
@@ -87,7 +93,8 @@ class Outcome(NamedTuple):
     runs: int
     missed: int
     trapped: int
-    minima: int
+    stationary: int
+    held: int
     used: int
     rescued: int
     steps_reached: float
@@ -186,7 +193,8 @@ def summary(case: Case, method: str, runs: Runs) -> Outcome:
         runs=len(reached),
         missed=int((~reached).sum()),
         trapped=int(stuck.sum()),
-        minima=_minima(case, method, runs.last[stuck], runs.gradient[stuck]),
+        stationary=_stationary(case, method, runs.last[stuck], runs.gradient[stuck]),
+        held=_held(case, method, runs.last[stuck]),
         used=int(runs.used.sum()),
         rescued=int(runs.rescued.sum()),
         steps_reached=_mean(runs.steps[reached]),
@@ -195,8 +203,8 @@ def summary(case: Case, method: str, runs: Runs) -> Outcome:
     )
 
 
-def _minima(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> int:
-    """How many runs that stand still do so in a minimum of U_att + U_rep, all obstacles at rest.
+def _stationary(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> int:
+    """How many runs that stand still do so where dU/dq = 0, U = U_att + U_rep, obstacles at rest.
 
     That is certain where |dU/dq| <= FLAT. A run that still creeps when its motion is judged to have
     stopped lies next to one if a descent that may not leave the ``_NEAR`` neighbourhood ends inside
@@ -222,6 +230,27 @@ def _minima(case: Case, method: str, last: np.ndarray, gradient: np.ndarray) -> 
         flat = np.linalg.norm(made.field.gradient(end, rest)) <= FLAT
         count += bool(flat and not within(*made.errors(end), *made.tolerances))
     return count
+
+
+def _held(case: Case, method: str, last: np.ndarray) -> int:
+    """How many runs that stand still do not arrive after any of some small pushes, which draws away
+    what rests on a saddle or on the rim of a valley; all obstacles at rest."""
+    if not len(last):
+        return 0
+    placed, moving = placed_slave(case.layout), slave_obstacles(case)
+    obstacles = replace(moving, cores=moving.cores[-1:], boxes=moving.boxes[-1:])
+    settings, rng = METHODS[method].settings(case), np.random.default_rng(0)
+    trap = settings.termination.trap
+    patient = trap.changed(threshold=_PATIENCE * trap.threshold)
+    settings = settings.changed(termination=settings.termination.changed(trap=patient))
+    made = problem(placed, placed.start, placed.goal, obstacles, settings)
+    held = 0
+    for q in last:
+        pushed = q + rng.uniform(-PUSH, PUSH, (_PUSHES, len(q)))
+        clear = made.repulsion.distances(pushed).min(axis=(1, 2), initial=np.inf) > 0.0
+        runs = clear.any() and plan_batch(placed, pushed[clear], placed.goal, obstacles, settings)
+        held += not (runs and runs.reached.any())
+    return held
 
 
 def wilson(count: int, runs: int) -> tuple[float, float]:

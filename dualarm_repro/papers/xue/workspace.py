@@ -56,6 +56,7 @@ def _slave(master: Arm) -> Arm:
 
 @checks(
     "xue.fig05",
+    samples=32,
     rules=[
         Is(key="points", to="points", label="number of random points"),
         Bounded(key="beyond_reach", high=0.0, label="points beyond the largest possible reach"),

@@ -1,0 +1,139 @@
+"""Both motions: readable and compiled planner, time index, distances, whole links."""
+
+from dataclasses import replace
+
+import coal
+import numpy as np
+import pytest
+
+from dualarm_repro.papers.xue.chosen import nominal
+from dualarm_repro.papers.xue.facts import (
+    flange_to_window,
+    flanges_apart,
+    flanges_apart_moving,
+    points_to_window,
+    through_window,
+)
+from dualarm_repro.papers.xue.layout import placed_master, placed_slave
+from dualarm_repro.papers.xue.methods import improved, traditional
+from dualarm_repro.papers.xue.motions import (
+    master_plan,
+    master_track,
+    master_undisturbed,
+    slave_obstacles,
+    slave_plan,
+    slave_undisturbed,
+)
+from dualarm_repro.papers.xue.scenario import GAINS, MASTER_GOAL
+from dualarm_repro.papers.xue.truth import largest_radius, link_cores
+from dualarm_repro.planning import plan_apf
+
+
+@pytest.fixture(scope="module")
+def case(registry):
+    return nominal()
+
+
+def test_printed_gains_reach_the_planner(case):
+    settings = improved(case.method, case.layout.window_centre, MASTER_GOAL)
+    assert settings.attraction.gain == GAINS["k_a"]
+    assert (settings.repulsion.gain, settings.repulsion.influence) == (GAINS["k_r"], GAINS["d_0"])
+    assert settings.virtual_point.gain == GAINS["k_w"]
+    assert traditional(case.method, "end_effector").attraction.joint_weight == 0.0
+
+
+def test_readable_and_compiled_plans_agree(case):
+    placed, plan = placed_slave(case.layout), slave_plan(case)
+    settings = improved(case.method, case.layout.window_centre, placed.goal)
+    readable = plan_apf(placed, placed.start, placed.goal, slave_obstacles(case), settings)
+    assert readable.reason is plan.reason
+    np.testing.assert_allclose(readable.path, plan.path, atol=1e-12)
+
+
+def test_master_ends_at_the_printed_goal(case):
+    plan = master_plan(case.layout, case.method)
+    assert np.abs(plan.path[-1] - MASTER_GOAL).max() <= case.method.goal_tolerance
+
+
+def test_slave_meets_the_planned_master_step_by_step(case):
+    obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.method)
+    flange = [name for name in obstacles.names if name.startswith("master")].index("master/frame_6")
+    np.testing.assert_allclose(obstacles.cores[:, flange, 0], plan.tcp, atol=1e-12)
+
+
+def test_equal_tool_speed_retimes_the_master(case):
+    other = case._replace(encounter=replace(case.encounter, equal_speed_meaning="same_tool_speed"))
+    track, slave = master_track(other), slave_undisturbed(case.layout, case.method)
+    plan = master_plan(case.layout, case.method)
+    assert track.index[-1] == pytest.approx(
+        plan.tcp_length * slave.steps / slave.tcp_length, rel=1e-2
+    )
+    assert not np.allclose(np.diff(track.index), 1.0)
+
+
+def test_undisturbed_plans_ignore_everything(case):
+    moved = replace(case.layout, window_centre_x=0.05)
+    first = slave_undisturbed(case.layout, case.method)
+    np.testing.assert_array_equal(first.path, slave_undisturbed(moved, case.method).path)
+    assert first.reached
+    assert master_undisturbed(case.layout, case.method).reached
+
+
+def test_distance_to_the_window_is_that_of_coal(case):
+    plan = slave_undisturbed(case.layout, case.method)
+    found = flange_to_window(plan, case.layout)
+    for row in (0, int(found.argmin()), plan.steps):
+        point = coal.Sphere(1e-9), coal.Transform3s(np.eye(3), plan.tcp[row])
+        results = []
+        for box in case.layout.window():
+            result = coal.DistanceResult()
+            coal.distance(*point, *box.coal(), coal.DistanceRequest(), result)
+            results.append(result.min_distance)
+        assert found[row] == pytest.approx(min(results), abs=1e-6)
+
+
+def test_flange_is_among_the_control_points(case):
+    plan = master_plan(case.layout, case.method)
+    points = points_to_window(plan, case.layout, "frames_2_6")
+    assert (points >= points_to_window(plan, case.layout, "capsules") - 1e-12).all()
+
+
+def test_a_waiting_slave_counts_only_until_both_rest(case):
+    slave, master = slave_plan(case), placed_master(case.layout)
+    track = master_track(case)
+    whole = flanges_apart(slave, master, track)
+    assert len(whole) == 1 + max(slave.steps, int(track.index[-1]))
+    np.testing.assert_array_equal(
+        flanges_apart_moving(slave, master, track), whole[: slave.steps + 1]
+    )
+
+
+def test_slave_passes_the_opening(case):
+    assert through_window(slave_plan(case), case.layout) > 0.0
+    narrow = replace(case.layout, window_opening_width=0.01, window_opening_height=0.01)
+    assert through_window(slave_plan(case), narrow) < 0.0
+
+
+def test_cores_of_links_and_the_radius_they_allow(case):
+    cores = link_cores(case.layout, slave_plan(case), master_track(case))
+    radius = largest_radius(cores.smallest)
+    assert radius == min(
+        cores.smallest["slave_window"],
+        cores.smallest["master_window"],
+        0.5 * cores.smallest["arms"],
+    )
+    row = int(cores.between("slave", "window").argmin())
+    first, second = cores.nearest("slave", "window")
+    assert first.startswith("slave/")
+    assert second.startswith("window/")
+    assert cores.found.distance[row].min() <= cores.smallest["slave_window"]
+    # A point of a core cannot be farther from the bars than the whole core.
+    assert (
+        cores.smallest["slave_window"]
+        <= points_to_window(slave_plan(case), case.layout, "frames_2_6").min() + 1e-9
+    )
+
+
+def test_limits_enforced_refuse_the_printed_start(case):
+    method = replace(case.method, joint_limits_in_motion="enforced")
+    assert master_plan(case.layout, method) is None

@@ -1,0 +1,118 @@
+"""Trials, certificates and the reuse of runs that meet no trap."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dualarm_repro.papers.xue.ablation import NAMED
+from dualarm_repro.papers.xue.chosen import nominal
+from dualarm_repro.papers.xue.layout import placed_slave
+from dualarm_repro.papers.xue.motions import slave_obstacles
+from dualarm_repro.papers.xue.postures import posture
+from dualarm_repro.papers.xue.trials import (
+    FLAT,
+    METHODS,
+    TOUCHES,
+    outcomes,
+    run_methods,
+    run_trials,
+    starts,
+    summary,
+    wilson,
+)
+from dualarm_repro.planning import StopReason, plan_apf_compiled
+from dualarm_repro.planning.problem import problem
+
+
+@pytest.fixture(scope="module")
+def case(registry):
+    return nominal()
+
+
+@pytest.fixture(scope="module")
+def begin(case):
+    return starts(case, 0.1, 6, np.random.default_rng(3))
+
+
+def test_starts_stay_within_the_half_width_and_follow_the_seed(case, begin):
+    away = np.abs(begin - placed_slave(case.layout).start)
+    assert 0.05 < away.max() <= 0.1
+    np.testing.assert_array_equal(begin, starts(case, 0.1, 6, np.random.default_rng(3)))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_batch_agrees_with_single_plans(case, begin, method):
+    runs = run_trials(case, method, begin[:2])
+    placed, settings = placed_slave(case.layout), METHODS[method].settings(case)
+    for k, start in enumerate(begin[:2]):
+        plan = plan_apf_compiled(placed, start, placed.goal, slave_obstacles(case), settings)
+        assert (runs.reason[k], runs.steps[k]) == (plan.reason, plan.steps)
+        np.testing.assert_allclose(runs.last[k], plan.path[-1], atol=1e-12)
+
+
+def test_rerun_of_the_missed_is_the_improved_method(case):
+    yawed = case._replace(layout=replace(case.layout, **NAMED["yawed"]))
+    begin = starts(yawed, 0.1, 5, np.random.default_rng(0))
+    made = run_methods(yawed, ("without_virtual", "improved"), begin)
+    whole = run_trials(yawed, "improved", begin)
+    assert (made["without_virtual"].reason != StopReason.REACHED).any(), "the point is needed here"
+    for one, other in zip(made["improved"], whole, strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert made["improved"].rescued.any()
+
+
+def test_trapped_runs_stand_where_the_gradient_vanishes(case):
+    begin = starts(case, 0.1, 10, np.random.default_rng(0))
+    runs = run_trials(case, "traditional", begin)
+    found = summary(case, "traditional", runs)
+    assert 0 < found.stationary <= found.trapped
+    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
+    made = problem(
+        placed, placed.start, placed.goal, obstacles, METHODS["traditional"].settings(case)
+    )
+    rest = len(obstacles.cores) - 1
+    flat = (runs.reason == StopReason.TRAPPED) & (runs.gradient <= FLAT)
+    assert flat.any()
+    for q in runs.last[flat]:
+        assert np.linalg.norm(made.field.gradient(q, rest)) <= 1.01 * FLAT
+        differences = [
+            (made.field.value(q + e, rest) - made.field.value(q - e, rest)) / 2e-5
+            for e in 1e-5 * np.eye(6)
+        ]
+        assert np.linalg.norm(differences) <= 2.0 * FLAT
+
+
+def test_a_saddle_does_not_hold_an_arm_and_a_minimum_does(case):
+    """Above the middle of a wall the pull goes straight through it: pushed, the arm slides off."""
+    begin = starts(case, 0.1, 10, np.random.default_rng(0))
+    runs = run_trials(case, "traditional", begin)
+    found = summary(case, "traditional", runs)
+    assert found.held <= found.trapped
+    behind = case._replace(layout=replace(case.layout, window_width=0.02, window_height=0.02))
+    runs = run_trials(behind, "traditional", begin)
+    closed = summary(behind, "traditional", runs)
+    assert closed.trapped
+    assert closed.held
+
+
+def test_a_perturbed_start_that_touches_a_bar_is_named_and_counted(case):
+    arm, base = placed_slave(case.layout).arm, case.layout.slave_base
+    inside = [posture(arm, bar.center - base, "radial_horizontal") for bar in case.layout.window()]
+    begin = np.array([q for q in inside if q is not None])
+    assert len(begin), "the middle of some bar is within reach"
+    runs = run_trials(case, "traditional", begin)
+    assert set(runs.reason) == {TOUCHES}
+    assert summary(case, "traditional", runs).missed == len(begin)
+
+
+def test_outcomes_are_flat_columns(case, begin):
+    row = outcomes(case, ("traditional", "without_virtual", "improved"), begin[:2])
+    assert row["traditional_runs"] == row["improved_runs"] == 2
+    assert all(np.isscalar(value) for value in row.values())
+
+
+def test_wilson_interval():
+    low, high = wilson(8, 10)
+    assert low == pytest.approx(0.4902, abs=1e-4)
+    assert high == pytest.approx(0.9433, abs=1e-4)
