@@ -17,6 +17,8 @@ from .sensitivity import Flip, Robustness
 SEED = 20200344
 _SCAN = 8  # steps from the nominal value to each end of a range before bisection
 _BISECTIONS = 12
+#: In place of a verdict where the computation refuses the values drawn.
+NOT_COMPUTABLE = "not-computable"
 
 
 def robustness(
@@ -25,7 +27,8 @@ def robustness(
     """Sample the assumptions of an item over their plausible values and judge it each time.
 
     Scrambled Sobol points over the ranges and choices of the item's assumptions; then, one
-    assumption at a time, a scan outwards from the nominal value and bisection for the flip.
+    assumption at a time, a scan outwards from the nominal value and bisection for the flip. Values
+    with which nothing can be computed do not keep the verdict.
 
     A checker that brings a stored study gives that instead, unless ``samples`` is asked for.
 
@@ -56,7 +59,10 @@ def robustness(
     nominal = evaluate(registry, item_id).verdict
 
     def verdict(changes: Mapping[str, Any]) -> str:
-        return evaluate(registry, item_id, changes).verdict
+        try:
+            return evaluate(registry, item_id, changes).verdict
+        except InputError:  # e.g. an arm out of reach
+            return NOT_COMPUTABLE
 
     engine = qmc.Sobol(len(varied), scramble=True, rng=np.random.default_rng(seed))
     points = engine.random_base2(max(0, (count - 1).bit_length()))[:count]

@@ -1,6 +1,7 @@
 """Evaluation, records, robustness and mutation on a toy document."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -102,3 +103,18 @@ def test_mutation_catches_a_checker_that_cannot_fail(tmp_path):
     rules = (Deaf(key="n", label="deaf", value=3),)
     toy.checkers["toy.claim_count"] = type(checker)(checker.compute, rules, "toy/page")
     assert insensitive(evaluate(toy, "toy.claim_count")) == ["deaf", "verdict on deaf"]
+
+
+def test_draws_that_cannot_be_computed_do_not_keep_the_verdict(toy):
+    compute = toy.checkers["toy.claim_area"].compute
+
+    def refusing(assumed):
+        if assumed["width"] > 1.2:
+            raise InputError("toy", "width", assumed["width"], "at most 1.2")
+        return compute(assumed)
+
+    toy.checkers["toy.claim_area"] = replace(toy.checkers["toy.claim_area"], compute=refusing)
+    found = robustness(toy, "toy.claim_area")
+    assert found.holds < 0.5
+    assert found.flip.verdict == "not-computable"
+    assert found.flip.value == pytest.approx(1.2, abs=1e-2)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import InputError
 from ...ledger import REGISTRY, Assumed, Bounded, Result
 from ...welding import ROBOTS, WELDER, Cell, Jobs
 from ..wording import point
@@ -20,9 +21,19 @@ _STEP, _STENCIL = 1e-3, {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}
 
 
 def at_display(assumed: Mapping[str, Any]) -> tuple[Cell, Jobs, np.ndarray]:
-    """The cell and its job at the position used where any would do."""
+    """The cell and its job at the position used where any would do.
+
+    Raises
+    ------
+    InputError
+        A robot has no joint path there.
+    """
     job, centre = Job.of(assumed), tuple(assumed["display_position"])
-    return job.cell(), solved(job, centre), np.array(centre)
+    jobs = solved(job, centre)
+    if not np.isfinite(jobs.q).all():
+        expected = "a position at which every robot has a joint path"
+        raise InputError("pan", "display_position", centre, expected)
+    return job.cell(), jobs, np.array(centre)
 
 
 def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:

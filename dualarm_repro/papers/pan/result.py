@@ -125,7 +125,6 @@ def constraints(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_optimum",
-    samples=32,
     rules=[
         Bounded(
             key="readings_near",
@@ -191,7 +190,6 @@ def printed_point(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig16",
-    samples=32,
     rules=[
         Bounded(
             key="smallest", low=0.01, label="smallest manipulability of a robot on the seam [m^3]"
@@ -222,7 +220,6 @@ def optimal_curves(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig17",
-    samples=32,
     rules=[
         Bounded(
             key="largest_step", high=0.6, label="largest step of a joint between seam points [rad]"

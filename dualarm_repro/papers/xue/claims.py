@@ -91,7 +91,6 @@ def _trap(
 
 @checks(
     "xue.claim_no_ik",
-    samples=32,
     rules=[
         Is(
             key="improved_plan", value=0, label="calls of inverse kinematics while (13)-(16) is run"
