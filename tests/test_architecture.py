@@ -87,8 +87,10 @@ def test_papers_do_not_import_each_other():
 
 
 def test_book_touches_only_the_upper_rooms():
-    allowed = {"papers", "ledger", "view", "arms", "scene"}
     for page in (PACKAGE.parent / "book").rglob("*.md"):
+        allowed = {"papers", "ledger", "view", "arms", "scene"}
+        if page.stem == "use_your_arm":  # which shows how to call the methods
+            allowed |= {"planning", "control", "datafiles"}
         text = page.read_text(encoding="utf-8")
         for cell in re.findall(r"^```\{code-cell\}(.*?)^```", text, re.DOTALL | re.MULTILINE):
             for room in re.findall(r"^from dualarm_repro\.(\w+)", cell, re.MULTILINE):

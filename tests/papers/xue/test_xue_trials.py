@@ -83,17 +83,17 @@ def test_trapped_runs_stand_where_the_gradient_vanishes(case):
         assert np.linalg.norm(differences) <= 2.0 * FLAT
 
 
-def test_a_saddle_does_not_hold_an_arm_and_a_minimum_does(case):
-    """Above the middle of a wall the pull goes straight through it: pushed, the arm slides off."""
+def test_a_wall_holds_an_arm_against_pushes(case):
+    """Without an opening, and too wide to slide off, the wall is a minimum that no push leaves."""
     begin = starts(case, 0.1, 10, np.random.default_rng(0))
-    runs = run_trials(case, "traditional", begin)
-    found = summary(case, "traditional", runs)
+    found = summary(case, "traditional", run_trials(case, "traditional", begin))
     assert found.held <= found.trapped
-    behind = case._replace(layout=replace(case.layout, window_width=0.02, window_height=0.02))
-    runs = run_trials(behind, "traditional", begin)
-    closed = summary(behind, "traditional", runs)
-    assert closed.trapped
-    assert closed.held
+    closed = replace(
+        case.layout, window_opening_width=0.02, window_opening_height=0.02, window_bar=0.4
+    )
+    wall = case._replace(layout=closed)
+    found = summary(wall, "traditional", run_trials(wall, "traditional", begin))
+    assert found.held == found.trapped == found.stationary == len(begin)
 
 
 def test_a_perturbed_start_that_touches_a_bar_is_named_and_counted(case):
