@@ -27,6 +27,7 @@ book: $(VENV)/.installed _build/.code  ## execute every notebook and build _buil
 	$(BIN)/python tools/check_book.py
 
 test: $(VENV)/.installed _build/.code  ## run the whole test suite
+	$(BIN)/python tools/prerun.py --records
 	$(BIN)/python -m pytest
 
 verify: $(VENV)/.installed _build/.code  ## recompute every item from nothing and compare with data/results

@@ -31,6 +31,8 @@ OneId = Annotated[str, typer.Argument(metavar="ID", help="item id, e.g. xue.tab0
 AsJson = Annotated[bool, typer.Option("--json", help="machine-readable output")]
 #: Draws of `sensitivity` for an item of which the book draws none.
 _DRAWS = 16
+#: Rows of a table that `run` prints.
+_ROWS = 12
 
 
 class CitationFormat(StrEnum):
@@ -95,6 +97,10 @@ def run(
         made = json.loads(_json(compose(registry, evaluation)))
         files = export(evaluation, made, out, card_figure)
         _describe(made)
+        if evaluation.result and (table := evaluation.result.table) is not None:
+            print(table.head(_ROWS).to_string(index=False))
+            if len(table) > _ROWS:
+                print(f"... {len(table)} rows, all in {item_id}.csv")
         _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
 
 

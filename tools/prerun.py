@@ -106,7 +106,10 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
 
 
 def main() -> int:
-    """Execute the notebooks of the book; 1 if any failed."""
+    """Execute the notebooks of the book; 1 if any failed. With ``--records`` compute records only."""
+    if "--records" in sys.argv[1:]:
+        warm_records()
+        return 0
     config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
     build = ROOT / "_build"
     isolate_kernels(build / ".ipython")

@@ -32,7 +32,6 @@ _CONSTRAINTS = {
 
 @checks(
     "pan.eq_opt",
-    samples=32,
     rules=[
         Bounded(key="feasible_share", low=1e-4, high=0.9999, label="feasible share of the region"),
         Is(key="interior", value=True, label="the optimum lies inside the region, not on its edge"),
@@ -73,7 +72,6 @@ def problem(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_constraints",
-    samples=32,
     rules=[
         Is(key="count", to="count", label="constraints tested"),
         Bounded(key="separation", low=1e-9, label="smallest separation at the optimum [m]"),

@@ -340,7 +340,14 @@ def _number(value: float | None) -> str:
 def _trial_table(trials: Trials | None) -> pd.DataFrame | None:
     if trials is None:
         return None
-    return pd.DataFrame([{"method": name, **getattr(trials, name)._asdict()} for name in TEXT])
+    table, rows = printed_counts(), []
+    for name in TEXT:
+        found = getattr(trials, name)
+        low, high = wilson(found.missed, found.runs)
+        readings = {"text": TEXT[name], "table": table[name]}
+        interval = {"missed_low": low, "missed_high": high}
+        rows.append({"method": name, **readings, **found._asdict(), **interval})
+    return pd.DataFrame(rows)
 
 
 def _lottery_figure(reading: str) -> Any:
