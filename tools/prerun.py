@@ -106,7 +106,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
 
 
 def main() -> int:
-    """Execute the notebooks of the book; 1 if any failed. With ``--records`` compute records only."""
+    """Execute the notebooks of the book; 1 if any failed. ``--records``: compute records only."""
     if "--records" in sys.argv[1:]:
         warm_records()
         return 0
