@@ -71,7 +71,7 @@ def plan_scene(plan: CoordinatedPlan, title: str) -> Scene3D:
     """The motion of all arms among boxes and spheres, with the tracks of the flanges."""
     arms = dict(zip(plan.plans, PALETTE, strict=False))
     reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
-    made = Scene3D(title, camera=(2.0 * reach, -1.5 * reach, 1.5 * reach))
+    made = Scene3D(title, camera=(1.1 * reach, -0.9 * reach, 0.9 * reach))
     for name, shape in _solids(plan):
         if isinstance(shape, Box):
             pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
