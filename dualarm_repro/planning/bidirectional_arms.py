@@ -187,23 +187,6 @@ def joint_circles(arm: Arm, settings: TwoArmSettings) -> JointCircles:
     return JointCircles(frames, (radius,) * len(frames), settings.hull_points)
 
 
-def default_two_arm_settings(arm: Arm) -> TwoArmSettings:
-    """Settings that scale with the reach of an arm: no number is taken from any publication.
-
-    The repulsion at half its range, with the reach as lever, equals the largest attraction.
-    """
-    reach = float(np.linalg.norm(arm.chain.translation[1:], axis=1).sum())
-    influence, threshold = 0.2 * reach, 0.5
-    return TwoArmSettings(
-        attraction={"gain": 1.0, "threshold": threshold},
-        repulsion={"gain": threshold * influence**3 / (4.0 * reach), "influence": influence},
-        control_points=tuple(range(3, arm.nq + 2)),
-        variable_gain={"rule": "power", "band": 0.1 * influence},
-        step={"length": 0.05, "rule": "saturating"},
-        ending={"tolerance": 0.06, "search_limit": 500, "stuck_searches": 60},
-    )
-
-
 def one_sided(settings: TwoArmSettings) -> TwoArmSettings:
     """The classic search from the start, with constant gain and step."""
     return settings.changed(

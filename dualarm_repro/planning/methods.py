@@ -7,19 +7,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..arms import Arm
 from ..errors import InputError, UnknownNameError
-from .bidirectional_arms import (
-    TwoArmSettings,
-    default_two_arm_settings,
-    one_sided,
-    plan_arms_bidirectional,
-)
+from .bidirectional_arms import TwoArmSettings, one_sided, plan_arms_bidirectional
+from .defaults import default_settings, default_two_arm_settings
 from .link_clearance import require_links_clear
 from .master_slave import CoordinatedPlan, Task, plan_master_slave
-from .settings import APFSettings, Attraction, Repulsion, Settings, Termination, Trap, Update
+from .settings import APFSettings, Settings
 from .task_file import TaskSet, load_tasks
 
 
@@ -46,24 +40,6 @@ class Method:
     default: Callable[[Arm], Settings]
     adapted: Callable[[Any], Settings]
     plan: Callable[[TaskSet, dict[str, Task]], CoordinatedPlan]
-
-
-def default_settings(arm: Arm) -> APFSettings:
-    """Settings that scale with the reach of an arm: no number is taken from any publication."""
-    reach = float(np.linalg.norm(arm.chain.translation[1:], axis=1).sum())
-    influence, weight = 0.1 * reach, 0.25 * reach**2
-    return APFSettings(
-        attraction=Attraction(gain=1.0, joint_weight=weight),
-        control_points=tuple(range(2, arm.nq + 2)),
-        repulsion=Repulsion(gain=(0.1 * reach * influence) ** 2, influence=influence),
-        update=Update(rule="gradient", gain=0.5 / (reach**2 + weight), max_step=0.02),
-        termination=Termination(
-            joint_tolerance=0.01,
-            position_tolerance=0.005 * reach,
-            step_limit=5000,
-            trap=Trap(rule="block_means", steps=50, threshold=1e-3),
-        ),
-    )
 
 
 def _traditional(settings: APFSettings) -> APFSettings:

@@ -178,7 +178,7 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
     placed = next((placed for placed in scene.arms if placed.name == name), None)
     if placed is None:
         raise DataFileError(path, "tasks", name, f"one of {', '.join(scene.columns)}")
-    ends, missed = {}, 0.0
+    ends = {}
     for field in ("start", "goal"):
         value = getattr(entry, field)
         value = getattr(placed, field) if value is None else value
@@ -186,9 +186,8 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
             expected = "a joint vector or a position, here or in the scene file"
             raise DataFileError(path, f"tasks.{name}.{field}", None, expected)
         try:
-            found = value
-            if isinstance(value, PostureEntry):
-                found, missed = value.configuration(placed)
+            posed = isinstance(value, PostureEntry)
+            found, missed = value.configuration(placed) if posed else (value, 0.0)
             ends[field] = placed.arm.configurations(found)
         except InputError as error:
             place = f"tasks.{name}.{field}: {error.field}"

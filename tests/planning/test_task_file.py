@@ -16,7 +16,7 @@ from dualarm_repro.planning import (
 )
 from dualarm_repro.planning.bidirectional_arms import TwoArmSettings
 from dualarm_repro.planning.control_points import end_effector
-from dualarm_repro.planning.methods import default_settings
+from dualarm_repro.planning.defaults import default_settings
 from dualarm_repro.scene import load_scene
 
 SCENE = """\
@@ -248,3 +248,9 @@ def test_a_point_out_of_reach_is_refused_or_approached(write):
     assert result.residuals == {"left": pytest.approx(missed)}
     with pytest.raises(DataFileError, match="best_effort without tool"):
         load_tasks(write(TASKS.replace(point, point + ", best_effort: true")))
+
+
+def test_what_a_start_misses_is_not_told_of_the_goal(write):
+    start = "start: {position: [0.35, 0, 1.2], best_effort: true}, goal: [0, 0, 0, 0, 0, 0]"
+    text = f"scene: cell.yaml\ntasks:\n  left: {{{start}}}\n"
+    assert load_tasks(write(text)).tasks["left"].residual == 0.0
