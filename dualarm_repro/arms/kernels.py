@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .trigonometry import sincos
 
 LANES = 64
@@ -30,7 +30,7 @@ class Chain(NamedTuple):
     translation: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def poses(chain, q):
     """T(q) for every row of ``q`` (N, n) [rad] -> (N, 4, 4) [m]."""
     count, n = q.shape
@@ -52,7 +52,7 @@ def poses(chain, q):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def frame_origins(chain, q):
     """Origins of the joint frames and of the flange, (N, n) [rad] -> (N, n+1, 3) [m]."""
     count, n = q.shape
@@ -71,7 +71,7 @@ def frame_origins(chain, q):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def positions(chain, q):
     """Position C_0 Rz(q_1) ... C_{n-1} Rz(q_n) t_n of the flange, (N, n) [rad] -> (N, 3) [m]."""
     count, n = q.shape
@@ -102,7 +102,7 @@ def positions(chain, q):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def jacobians(chain, q):
     """Columns [z_j x (p - o_j); z_j] in base axes at the flange, (N, n) [rad] -> (N, 6, n)."""
     count, n = q.shape
@@ -118,7 +118,7 @@ def jacobians(chain, q):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def manipulabilities(chain, q):
     """w = sqrt(det(J J^T)) as the product of the norms of J's orthogonalised rows, -> (N,).
 
@@ -152,7 +152,7 @@ def manipulabilities(chain, q):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _load_sincos(q, start, rows, joint, w):
     """Sine and cosine of one joint for a block; lanes past the end keep what they held."""
     for k in range(rows):
@@ -163,7 +163,7 @@ def _load_sincos(q, start, rows, joint, w):
         w[_COS + k] = c
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _set_pose(chain, w):
     for r in range(3):
         for k in range(LANES):
@@ -173,7 +173,7 @@ def _set_pose(chain, w):
                 w[_ROT + (3 * r + c) * LANES + k] = chain.rotation[0, r, c]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _advance(chain, j, w):
     """Pose of the block times Rz(q_j) C_j."""
     C, t = chain.rotation[j], chain.translation[j]
@@ -194,7 +194,7 @@ def _advance(chain, j, w):
             w[_POS + r * LANES + k] += x * t0 + y * t1 + z * t2
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _jacobian_block(chain, q, start, rows, w):
     """Geometric Jacobian of a block, entry (row, joint) at _JAC + (row n + joint) LANES."""
     n = q.shape[1]
@@ -220,7 +220,7 @@ def _jacobian_block(chain, q, start, rows, w):
             w[i + 2 * step] = a * y - b * x
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _inner(w, row, other, n):
     """Inner products of two rows of the Jacobian, left in the place of the cosine."""
     for k in range(LANES):

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from ..errors import InputError
+from ..kernel import kernel
 from .arm import Arm
 
 SAMPLES = 2_000_000
@@ -131,7 +131,7 @@ def rotation_volumes(
     return [occupancy(arm, h, np.random.default_rng(seed), samples).volume() for h in cells]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _cell_of(points, k, cell, bottom, azimuths):
     x, y = points[k, 0], points[k, 1]
     row = int(math.sqrt(x * x + y * y) / cell)
@@ -142,7 +142,7 @@ def _cell_of(points, k, cell, bottom, azimuths):
     return row, column, azimuth
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _mark(points, cell, bottom, counts, marked):
     for k in range(len(points)):
         row, column, azimuth = _cell_of(points, k, cell, bottom, marked.shape[2])
@@ -150,7 +150,7 @@ def _mark(points, cell, bottom, counts, marked):
         marked[row, column, azimuth] = True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _lookup(points, cell, bottom, covered):
     inside = np.zeros(len(points), dtype=np.bool_)
     for k in range(len(points)):
@@ -160,7 +160,7 @@ def _lookup(points, cell, bottom, covered):
     return inside
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _sweep(marked, lower, upper):
     """Every marked azimuth psi covers lower + psi ... upper + psi, to the nearest bin."""
     azimuths = marked.shape[2]

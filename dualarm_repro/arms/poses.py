@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..kernel import kernel
 
 ORTHONORMAL = 1e-6  # largest error of R^T R - I that counts as rounding
 
@@ -35,7 +35,7 @@ def check_poses(source: str, T: ArrayLike, ndim: int) -> np.ndarray:
     return poses
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _first_wrong(poses):
     """Index of the first matrix that is no pose, -1 if there is none."""
     for k in range(len(poses)):

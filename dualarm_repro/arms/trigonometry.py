@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from ..kernel import kernel
 
 # pi/2 in three parts of 33 bits and a rest: k times a part is exact for |k| < 2^20
 # (W. J. Cody and W. Waite, Software Manual for the Elementary Functions, 1980).
@@ -20,7 +21,7 @@ _P4 = 8.47842766036889956997e-32
 _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to the nearest integer
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def sincos(x):
     """sin x and cos x [x in rad] to 2.3e-16 for |x| < 1.6e6; beyond, to the rounding of ``x``."""
     k = (x * 0.6366197723675814 + _ROUND) - _ROUND
@@ -43,7 +44,7 @@ def sincos(x):
     return sine, cosine
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def arctan2(y, x):
     """Angle of (x, y) in (-pi, pi], to 4.5e-16; a negative zero counts as zero, never as -pi."""
     u, v = abs(x), abs(y)

@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .trigonometry import arctan2
 
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
@@ -25,7 +25,7 @@ _TIE = 1e-9  # of a turn: half a turn away from the reference is taken on the up
 _TURN = 2.0 * math.pi
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def inverse_kinematics(geometry, poses, reference, lower, upper):
     """All branches for every flange pose.
 
@@ -84,7 +84,7 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def distinct(branches):
     """Which of the branches (8, 6) of one pose exist and equal no earlier one, (8,) of bool."""
     keep = np.zeros(BRANCHES, dtype=np.bool_)
@@ -98,7 +98,7 @@ def distinct(branches):
     return keep
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _arm_angles(geometry, centre, arm, reference):
     """Sine and cosine of q1, q2 and the pitch q2 +- q3 for the wrist centre, if it is in reach."""
     l2, l3 = geometry.upper_arm[0], geometry.forearm[0]
@@ -134,7 +134,7 @@ def _arm_angles(geometry, centre, arm, reference):
     return s1, c1, s2, c2, s, c, reached
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _wrist_angles(geometry, tool, x5, branch, reference):
     """Sine and cosine of q4, q5, q6 that turn z6 and x5 into these vectors, if they are real.
 
@@ -159,7 +159,7 @@ def _wrist_angles(geometry, tool, x5, branch, reference):
     return s4, c4, s5, c5, _dot(m1, w), _dot(m0, w), square > -BOUNDARY
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _into_limits(angle, lower, upper):
     """The angle shifted by full turns into its limits, NaN if none fits."""
     while angle > upper + ON_LIMIT:
@@ -169,13 +169,13 @@ def _into_limits(angle, lower, upper):
     return min(max(angle, lower), upper) if angle <= upper + ON_LIMIT else np.nan
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _sum(s, c, sine, cosine):
     """Sine and cosine of the sum of two angles."""
     return s * cosine + c * sine, c * cosine - s * sine
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _undo_arm(geometry, s1, c1, s, c, v):
     """Ry(-pitch) Rz(-q1) v, in the frame x4, y4, z4."""
     x, y = c1 * v[0] + s1 * v[1], c1 * v[1] - s1 * v[0]
@@ -184,7 +184,7 @@ def _undo_arm(geometry, s1, c1, s, c, v):
     return (_dot(x4, turned), _dot(y4, turned), _dot(z4, turned))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _wrist_centre(geometry, poses, k):
     d = _from_flange(geometry, poses, k, geometry.flange[2])
     p = _from_base(
@@ -196,7 +196,7 @@ def _wrist_centre(geometry, poses, k):
     return (p[0] - d[0], p[1] - d[1], p[2] - d[2])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _from_flange(geometry, poses, k, vector):
     """A vector of the flange frame in the frame of the geometry."""
     f0, f1, f2 = vector
@@ -208,7 +208,7 @@ def _from_flange(geometry, poses, k, vector):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _from_base(geometry, x, y, z):
     """A vector of the base frame in the frame of the geometry."""
     X, Y, Z = geometry.base
@@ -216,6 +216,6 @@ def _from_base(geometry, x, y, z):
     return (_dot(X, v), _dot(Y, v), _dot(Z, v))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

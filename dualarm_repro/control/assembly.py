@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .avoidance import fill_rows, select_pairs
 from .damper import joint_bounds
 from .kinematics import core_distances, joint_frames, tip_jacobian
@@ -37,7 +37,7 @@ class Buffers(NamedTuple):
     upper: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def make_buffers(arrays, rows_per_pair):
     """Buffers for a system; ``rows_per_pair`` is an entry of :data:`.settings.ROWS`."""
     n, arms, pairs = arrays.start[-1], len(arrays.base), len(arrays.pairs)
@@ -59,7 +59,7 @@ def make_buffers(arrays, rows_per_pair):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def sense(arrays, numbers, q, noise, buffers):
     """Kinematics, distances and the pairs that give rows; returns how many.
 
@@ -84,7 +84,7 @@ def sense(arrays, numbers, q, noise, buffers):
     return select_pairs(arrays, numbers.selection, numbers.outer, B.distance, B.chosen)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def state(arrays, numbers, q, home, position, velocity, count, buffers):
     """Write the problem after :func:`sense`; returns the number of rows of G.
 

@@ -13,8 +13,8 @@ pair_components   -n_r D_r x <= n_r^2 beta, r = x, y, z       whose sum is the r
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .damper import approach_bound
 from .kinematics import relative_velocity
 
@@ -22,7 +22,7 @@ PAIR_NORMAL, ARM_NORMAL, PAIR_AXES, ARM_AXES, PAIR_COMPONENTS = range(5)
 ALL_WITHIN_OUTER, NEAREST_PER_LINK, SINGLE_NEAREST = range(3)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def select_pairs(arrays, selection, outer, distance, chosen):
     """Numbers of the pairs that give rows, written to ``chosen`` (P,); returns how many."""
     count = 0
@@ -50,7 +50,7 @@ def select_pairs(arrays, selection, outer, distance, chosen):
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
     """Write the rows of the chosen pairs; returns how many rows."""
     n = G.shape[1]

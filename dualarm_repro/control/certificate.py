@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ..kernel import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def residual(v, A, b, G, h, lower, upper, x, y, z, w):
     """Largest violation, gradient of the Lagrangian, wrong sign and complementarity product.
 

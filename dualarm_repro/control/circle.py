@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, UnknownNameError
+from ..kernel import kernel
 
 TIME_LAWS = ("rest_to_rest", "constant_speed")
 
@@ -99,7 +99,7 @@ class Circles:
         return position, velocity
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def follow(circle, t, position, velocity):
     """r(t) and dr/dt (A, 3); the path repeats every ``duration``."""
     T = circle.duration

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .assembly import make_buffers, sense, state
 from .certificate import residual
 from .circle import follow
@@ -21,7 +21,7 @@ REASONS = {
 }
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def observe(buffers, position, error):
     """Write the distance of each tip from its path; returns the smallest surface distance."""
     for arm in range(len(position)):
@@ -32,7 +32,7 @@ def observe(buffers, position, error):
     return buffers.surface.min() if len(buffers.surface) else np.inf
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise, rows_per_pair):
     """q' = x(q, t) by explicit Euler steps, x the exact minimiser.
 

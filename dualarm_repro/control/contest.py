@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .least_distance import least_distance
 from .neural.network import network_rate
 from .neural.network_settings import NetworkSettings
@@ -17,7 +17,7 @@ from .problem import Problem
 from .recorded import stacked
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def exact_all(data, x):
     """Minimisers of all problems, each from nothing."""
     target, A, b, G, h, lower, upper, rows = data
@@ -26,7 +26,7 @@ def exact_all(data, x):
         x[f] = least_distance(target[f], A[f], b[f], G[f, :k], h[f, :k], lower[f], upper[f])[1]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def newton_all(data, network, steps, x):
     """``steps`` network steps of unit gain (Newton steps) a problem, warm from the one before."""
     target, A, b, G, h, lower, upper, rows = data
@@ -55,7 +55,7 @@ def newton_all(data, network, steps, x):
         x[f] = y[:n]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def primal_dual_all(data, iterations, x):
     """``iterations`` steps of the primal-dual network a problem, warm; z only while rows stay."""
     target, A, b, G, h, lower, upper, rows = data

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..kernel import kernel
 from .assembly import make_buffers, sense, state
 from .certificate import residual
 from .least_distance import INFEASIBLE, SOLVED, least_distance
@@ -17,14 +17,14 @@ from .simulate import SLACK_WEIGHT
 from .system import ArmSystem
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def stated(arrays, numbers, q, home, position, velocity, buffers):
     """Write the problem of one step into the buffers; returns its number of rows."""
     count = sense(arrays, numbers, q, np.empty(0), buffers)
     return state(arrays, numbers, q, home, position, velocity, count, buffers)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def control_step(arrays, numbers, q, home, position, velocity, buffers):
     """State, solve and certify one step: status, number of rows, residual, joint velocity."""
     k = stated(arrays, numbers, q, home, position, velocity, buffers)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ..kernel import kernel
 
 LINEAR, SINE_SQUARED, STEP, ZERO_INSIDE = range(4)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def approach_bound(law, d, gain, outer, inner):
     """beta(d) [m/s] in -dd/dt <= beta(d), for d within the outer range.
 
@@ -28,7 +29,7 @@ def approach_bound(law, d, gain, outer, inner):
     return 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def joint_bounds(arrays, numbers, q, lower, upper):
     """Speed limits merged with angle limits.
 

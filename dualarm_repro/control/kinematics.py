@@ -7,13 +7,13 @@ Written for one configuration at a time, as a controller needs them; the yardsti
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from ..scene.segments import segment_segment
 from ..scene.vectors import cross, minus, vector
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def joint_frames(arrays, q, frames, tips):
     """F_j = F_(j-1) C_(j-1) Rz(q_j) from each base, and the flange positions.
 
@@ -43,14 +43,14 @@ def joint_frames(arrays, q, frames, tips):
             tips[arm, r] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def point_velocity(frames, arm, joint, p):
     """z_j x (p - o_j): velocity of a point per unit speed of a joint of an arm [m]."""
     F = frames[joint + arm + 1]
     return cross(vector(F[:, 2]), minus(p, vector(F[:, 3])))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def tip_jacobian(arrays, frames, tips, J):
     """Block-diagonal J (3A, n) of the flange positions, v = J dq [m/rad]."""
     J[:] = 0.0
@@ -62,7 +62,7 @@ def tip_jacobian(arrays, frames, tips, J):
                 J[3 * arm + r, joint] = v[r]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def core_distances(arrays, frames, distance, witness):
     """Distance of the capsule cores of every pair, nearest points and normal from a to b.
 
@@ -90,7 +90,7 @@ def core_distances(arrays, frames, distance, witness):
             witness[k, 0, r], witness[k, 1, r], witness[k, 2, r] = p[r], q[r], normal[r]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def relative_velocity(arrays, frames, body, point, sign, columns):
     """Add sign times the velocity of a point of a body per joint speed to ``columns`` (3, n)."""
     p = vector(point)

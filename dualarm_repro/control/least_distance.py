@@ -9,14 +9,15 @@ constraints are kept as N = Q R. One constraint is a . x >= c; they are numbered
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ..kernel import kernel
 
 SOLVED, INFEASIBLE, ITERATION_LIMIT = 0, 1, 2
 _FEASIBLE = 1e-12
 _DEPENDENT = 1e-12  # squared length of the part of a normal outside the active span
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def least_distance(v, A, b, G, h, lower, upper):
     """Solve one problem.
 
@@ -113,7 +114,7 @@ def least_distance(v, A, b, G, h, lower, upper):
     return status, x, y_out, z_out, w_out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _dot(a, b):
     total = 0.0
     for j in range(len(a)):
@@ -121,7 +122,7 @@ def _dot(a, b):
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _directions(a, Q, R, count, d, r, z):
     """d = Q^T a, primal direction z = Q_2 d_2, dual direction r = R^-1 d_1; returns a . z."""
     n = len(a)
@@ -146,7 +147,7 @@ def _directions(a, Q, R, count, d, r, z):
     return square
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _rotate(Q, j, c, s):
     """Turn the columns j-1 and j of Q."""
     for i in range(len(Q)):
@@ -154,7 +155,7 @@ def _rotate(Q, j, c, s):
         Q[i, j - 1], Q[i, j] = c * p + s * q, c * q - s * p
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _append(Q, R, count, d):
     """Add the normal with coordinates d as last column of R."""
     for j in range(len(d) - 1, count, -1):
@@ -167,7 +168,7 @@ def _append(Q, R, count, d):
         R[i, count] = d[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _remove(Q, R, leaving, count, active, u):
     """Drop one active constraint and make R triangular again; returns the new count."""
     for j in range(leaving, count - 1):
@@ -186,7 +187,7 @@ def _remove(Q, R, leaving, count, active, u):
     return count - 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _most_violated(x, G, h, lower, upper, taken, m):
     """Number and value of the most violated inequality that is not active, or -1."""
     n, k = len(x), len(h)
@@ -209,7 +210,7 @@ def _most_violated(x, G, h, lower, upper, taken, m):
     return worst, least
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _normal(i, G, n, m, k, a):
     """Normal of inequality i in the form a . x >= c."""
     a[:] = 0.0

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from .least_distance import least_distance
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def least_distance_with_slack(v, A, b, G, h, lower, upper, weight):
     """min 1/2 |x - v|^2 + weight/2 |s|^2  s.t.  A x + s = b, G x <= h, lower <= x <= upper.
 

@@ -9,7 +9,7 @@ alpha = alpha_0 s with s between ``floor`` and ``cap``, sum tau_i = 1:
 
 from __future__ import annotations
 
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from .bidirectional_settings import StepRule
 from .settings import code
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import kernel
 from ..scene.bodies import PlacedArm
-from ..scene.compiled import kernel
 from .compiled import empty_rows, rules_of, run
 from .field_kernels import evaluate, field_of, gradient, workspace
 from .obstacles import Obstacles

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arms.kernels import Chain
+from ..kernel import kernel
 from ..scene.bodies import PlacedArm
-from ..scene.compiled import kernel
 from ..scene.points import point_box, point_capsule
 from ..scene.posing import link_frames
 from ..scene.vectors import dot, minus, rotated, scaled, vector

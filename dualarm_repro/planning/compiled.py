@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import kernel
 from ..scene.bodies import PlacedArm
-from ..scene.compiled import kernel
 from ..scene.vectors import dot, minus, vector
 from .field_kernels import evaluate, field_of, total_of, workspace
 from .obstacles import Obstacles

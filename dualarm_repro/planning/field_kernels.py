@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arms.kernels import Chain
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from ..scene.posing import link_frames
 from ..scene.vectors import cross, dot, minus, out_of_frame, scaled, vector
 from .control_points import base_of

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import spatial
 
+from ..kernel import kernel
 from ..scene.bodies import PlacedArm
-from ..scene.compiled import kernel
 from ..scene.hull import circle_points
 from ..scene.posing import link_frames
 from ..scene.vectors import along, dot, minus, scaled, vector

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from .bidirectional_settings import Threshold
 from .settings import code
 

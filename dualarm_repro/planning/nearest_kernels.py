@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kernel import kernel
 from ..scene.boxes import segment_box
-from ..scene.compiled import kernel
 from ..scene.points import point_box, point_capsule
 from ..scene.segments import segment_segment
 from ..scene.vectors import (

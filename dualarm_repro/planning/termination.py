@@ -6,7 +6,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from .settings import StuckRule, code
 
 _BLOCK_MEANS = code(StuckRule.BLOCK_MEANS)

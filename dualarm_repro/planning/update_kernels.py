@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arms.kernels import Chain
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from ..scene.posing import link_frames
 from .field_kernels import attractions, evaluate, flange, gradient, repulsion, total_of
 from .settings import UpdateRule, code

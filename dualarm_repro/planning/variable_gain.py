@@ -12,7 +12,7 @@ Elsewhere, and before the first flip, lambda = 1.
 
 from __future__ import annotations
 
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from .bidirectional_settings import FlipRule, GainRule
 from .settings import code
 

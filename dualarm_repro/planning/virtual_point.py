@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..scene.compiled import kernel
+from ..kernel import kernel
 from .settings import Switching, code
 
 NO_POINT = -1

@@ -11,7 +11,7 @@ crossed with u, so that the shortest translation is along one of these six axes.
 
 from __future__ import annotations
 
-from .compiled import kernel
+from ..kernel import kernel
 from .segments import CORES_MEET, ROUNDING, clamped, lowest
 from .vectors import along, cross, dot, scaled
 

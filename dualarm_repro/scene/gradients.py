@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import kernel
 from .clearance import Clearance, clearance
-from .compiled import kernel
 from .placement import arm_frames
 from .scene import Scene
 from .vectors import cross, dot, minus, vector

@@ -9,8 +9,8 @@ the radii, also for cores that overlap.
 
 from __future__ import annotations
 
+from ..kernel import kernel
 from .boxes import segment_box, segment_box_distance
-from .compiled import kernel
 from .polytope import segment_polytope
 from .segments import closest_parameters, segment_segment
 from .vectors import along, dot, into_frame, minus, out_of_frame, rotated, scaled, vector

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..kernel import kernel
 from .boxes import excess, shortest_exit
-from .compiled import kernel
 from .hull import ConvexHull
 from .polytope import segment_polytope
 from .segments import CORES_MEET, projected

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiled import kernel
+from ..kernel import kernel
 from .segments import CORES_MEET, ROUNDING, clamped, closest_parameters, lowest
 from .vectors import along, cross, dot, minus, scaled, vector
 

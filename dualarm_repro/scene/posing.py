@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
-from .compiled import kernel
+from ..kernel import kernel
 
 
 class Links(NamedTuple):

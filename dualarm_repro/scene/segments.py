@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiled import kernel
+from ..kernel import kernel
 from .vectors import along, cross, dot, minus, perpendicular, scaled
 
 # Cores nearer than this [m] meet: the difference of the witness points is noise, no direction.

@@ -6,9 +6,9 @@ import math
 from enum import IntEnum
 
 import numpy as np
-from numba import njit
 
 from ..arms.wrist_ik import BRANCHES, inverse_kinematics
+from ..kernel import kernel
 from .manipulability import manipulabilities
 
 _TURN = 2.0 * math.pi
@@ -25,7 +25,7 @@ class Status(IntEnum):
     COLLISION = 4
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def follow(geometry, base, flanges, centres, lower, upper, threshold):
     """Joint paths that carry the flange along its poses, for every placement of the path.
 
@@ -100,7 +100,7 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     return q, w, branch, status
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _any_branch(found):
     """Whether some branch exists at every pose."""
     for b in range(BRANCHES):
@@ -109,7 +109,7 @@ def _any_branch(found):
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _within(path, lower, upper, middle):
     """Unwrap a path in place, then shift every joint by full turns into its limits, if possible."""
     for j in range(6):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import gamma, pi
 
 import numpy as np
-from numba import njit
 
 from ..arms.kernels import jacobians
+from ..kernel import kernel
 
 
 def unit_ball_volume(dimension: int) -> float:
@@ -72,7 +72,7 @@ def intersection_volume_monte_carlo(
     return volume * share, volume * (share * (1 - share) / count) ** 0.5
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def gram_matrices(chain, rotation, q, lever, rows):
     """A = J J^T (M, rows, rows) in world axes at the point ``lever`` away from the flange.
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from ..arms import Arm
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
 from ..errors import UnknownNameError
+from ..kernel import kernel
 
 PAIR_MEASURES = ("product", "geometric_mean")
 
@@ -40,7 +40,7 @@ def closed_form(arm: Arm, q: np.ndarray) -> np.ndarray:
     return manipulabilities(wrist_geometry(arm.name, arm.chain), np.atleast_2d(q))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def manipulabilities(geometry, q):
     """The closed form for rows q (N, 6) -> (N,)."""
     out = np.empty(len(q))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernel import kernel
 from ..scene.segments import closest_parameters
 from ..scene.vectors import along, dot, minus, vector
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def smallest_distances(ends, radius, pairs, above, height, count):
     """min over ``count`` consecutive rows and all pairs of |core distance| - r_a - r_b.
 

@@ -15,7 +15,8 @@ slope at zero counts: it multiplies the gain.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ...kernel import kernel
 
 ACTIVATIONS = (
     "linear", "power", "bipolar_sigmoid", "power_sigmoid", "tanh", "sinh", "sign_bi_power",
@@ -36,7 +37,7 @@ SLOPE_AT_ZERO = {
 }
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def activation(kind, u):
     """Psi(u) of one entry."""
     if kind == LINEAR:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
+from ...kernel import kernel
 from ..assembly import make_buffers
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, observe
@@ -20,7 +20,7 @@ from .network_settings import NetworkSettings
 FASTEST = 1e3
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def run_network(
     arrays, numbers, network, circle, q0, y0, steps, dt, noise, disturbance, rows_per_pair
 ):

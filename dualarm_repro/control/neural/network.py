@@ -13,8 +13,8 @@ central difference along the motion: it holds the rates of A, b, G and h at once
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ...kernel import kernel
 from ..assembly import sense, state
 from ..circle import follow
 from .activation import activation
@@ -26,13 +26,13 @@ HALF_STEP = 1e-5
 ALL, WITHOUT_BARRIER_RATE, NONE = range(3)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def gain_at(network, t):
     """min(gamma e^t, cap) or min(gamma, cap) [1/s]."""
     return min(network.gamma * (np.exp(t) if network.growing else 1.0), network.cap)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def network_rate(network, gain, feed_forward, target, A, b, G, h, lower, upper, y, rate):
     """dy/dt (n + m,) of one problem; ``feed_forward`` (n + m,) is dF/dt at fixed y."""
     optimality(network, target, A, b, G, h, lower, upper, y, rate)
@@ -43,7 +43,7 @@ def network_rate(network, gain, feed_forward, target, A, b, G, h, lower, upper, 
     solve_saddle(H, A, rate)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, B, drift):
     """dF/dt at fixed y (n + m,), with the pairs that give rows held; overwrites the buffers.
 
@@ -66,7 +66,7 @@ def problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, 
         drift += sign * F / (2.0 * HALF_STEP)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def state_rate(arrays, numbers, network, circle, q, home, t, y, noise, disturbance, buffers, rate):
     """dy/dt (n + m,) of the network that drives the arms at (q, t); returns the number of rows.
 

@@ -9,12 +9,11 @@ E = [I A^T; A 0] and e = [target - C^T P'; b].
 
 from __future__ import annotations
 
-from numba import njit
-
+from ...kernel import kernel
 from .penalty import penalty
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def optimality(network, target, A, b, G, h, lower, upper, y, F):
     """F(y) (n + m,)."""
     n, m = len(target), len(b)
@@ -38,7 +37,7 @@ def optimality(network, target, A, b, G, h, lower, upper, y, F):
                 F[i] += G[k, i] * push
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def penalised_hessian(network, target, G, h, lower, upper, y, H):
     """H = I + C^T P'' C (n, n), or the identity if the network does without."""
     n = len(target)

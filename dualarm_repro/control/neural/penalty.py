@@ -12,14 +12,15 @@ that softplus needs p above the largest multiplier, and the others miss by about
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ...kernel import kernel
 
 PENALTIES = ("quadratic", "softplus", "squared_softplus", "exponential")
 QUADRATIC, SOFTPLUS, SQUARED_SOFTPLUS, EXPONENTIAL = range(4)
 _STEEPEST = 60.0  # exponent at which the exponential goes on as a parabola, lest it overflow
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def penalty(kind, p, s, g):
     """P(g), P'(g), P''(g) of one inequality.
 

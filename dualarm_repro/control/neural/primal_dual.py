@@ -12,10 +12,10 @@ B. He, Appl. Math. Optim. 35, 1997, known there and in later work as method E47.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from ...errors import InputError
+from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, observe
@@ -26,7 +26,7 @@ from ..system import ArmSystem
 from .fixed_step import FASTEST
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def projection_error(target, A, b, G, h, lower, upper, u, e):
     """e(u) (n + m + k,)."""
     n, m, k = len(target), len(b), len(h)
@@ -49,7 +49,7 @@ def projection_error(target, A, b, G, h, lower, upper, u, e):
         e[n + m + j] = u[n + m + j] - max(u[n + m + j] - total, 0.0)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def direction(A, G, e, d):
     """d = (I + M^T) e."""
     n, m, k = A.shape[1], len(A), len(G)
@@ -68,7 +68,7 @@ def direction(A, G, e, d):
             d[n + m + j] += G[j, i] * e[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def iterate(target, A, b, G, h, lower, upper, u, iterations, tolerance):
     """Improve ``u`` in place; returns the iterations made until |e|_inf <= tolerance, or all."""
     e, d = np.empty(len(u)), np.empty(len(u))
@@ -81,7 +81,7 @@ def iterate(target, A, b, G, h, lower, upper, u, iterations, tolerance):
     return iterations
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, disturbance):
     """Closed loop with a fixed number of iterations per tick, multipliers kept from tick to tick.
 

@@ -6,10 +6,11 @@ H = L L^T, S = A H^-1 A^T = K K^T;  S l = A H^-1 f_1 - f_2,  x = H^-1 (f_1 - A^T
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from ...kernel import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def factorise(M):
     """Lower Cholesky factor in place; NaN on the diagonal if M is not positive definite."""
     for i in range(len(M)):
@@ -20,7 +21,7 @@ def factorise(M):
             M[i, j] = np.sqrt(total) if i == j else total / M[j, j]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def forward(L, v):
     """L^-1 v in place."""
     for i in range(len(v)):
@@ -30,7 +31,7 @@ def forward(L, v):
         v[i] = total / L[i, i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def backward(L, v):
     """L^-T v in place."""
     for i in range(len(v) - 1, -1, -1):
@@ -40,7 +41,7 @@ def backward(L, v):
         v[i] = total / L[i, i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def solve_saddle(H, A, f):
     """Solution in place of ``f`` (n + m,); ``H`` (n, n) is overwritten by its factor."""
     m, n = A.shape

@@ -1,0 +1,85 @@
+"""Compiled functions, whose machine code is kept under what it depends on.
+
+The cache of numba knows the file of a function only: after an edit of a function that it calls, old
+machine code would go on running. Here the key is the import closure of the function's module.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from platform import python_version
+from typing import Any
+
+import llvmlite
+import numba
+from numba import njit
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+
+from .cache_folder import cache_folder
+from .sources import graph
+
+
+@cache
+def stamp(module: str) -> str:
+    """What the machine code of a module depends on: its import closure and the compiler."""
+    found = graph().digest(graph().closure([module]))
+    versions = (numba.__version__, llvmlite.__version__, python_version())
+    return sha256(f"{found} {versions}".encode()).hexdigest()
+
+
+def compiled_folder() -> Path | None:
+    """Folder of the machine code (``NUMBA_CACHE_DIR`` if set), or None where nothing is kept."""
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(chosen)
+    root = cache_folder()
+    return root / "compiled" if root else None
+
+
+class _Locator(_CacheLocator):
+    """Machine code below the cache folder, by module and stamp."""
+
+    def __init__(self, function: Callable[..., Any], folder: Path) -> None:
+        self._module, self._folder = function.__module__, folder
+
+    def get_cache_path(self) -> str:
+        return str(self._folder / self._module / stamp(self._module)[:16])
+
+    def get_source_stamp(self) -> str:
+        return stamp(self._module)
+
+    def get_disambiguator(self) -> str:
+        return ""
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> _Locator | None:
+        folder = compiled_folder()
+        if folder is None:
+            return None
+        found = cls(function, folder)
+        try:
+            found.ensure_cache_path()
+        except OSError:  # a cache that cannot be written only costs time
+            return None
+        return found
+
+
+class _Implementation(CompileResultCacheImpl):
+    _locator_classes = [_Locator]  # noqa: RUF012 - the name and type numba looks for
+
+
+class _Cache(FunctionCache):
+    _impl_class = _Implementation
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
+    compiled = njit(error_model="numpy")(function)
+    try:
+        compiled._cache = _Cache(function)
+    except RuntimeError:  # no folder to keep machine code in
+        pass
+    return compiled
