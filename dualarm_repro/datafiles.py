@@ -10,6 +10,7 @@ import yaml
 from pydantic import ValidationError
 
 from .errors import DataFileError
+from .tracking import note
 
 
 @cache
@@ -23,6 +24,14 @@ def data_root() -> Path:
 def data_path(*parts: str) -> Path:
     """Path of a data file below :func:`data_root`; it need not exist."""
     return data_root().joinpath(*parts)
+
+
+def opened(path: Path) -> Path:
+    """The same path, after telling the recordings under way that this data file is read."""
+    path = Path(path)
+    if path.is_relative_to(data_root()):
+        note(path.relative_to(data_root()).as_posix())
+    return path
 
 
 class _Loader(yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader):
@@ -52,7 +61,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
     DataFileError
         The file is missing, unreadable, not YAML, or its top level is no mapping.
     """
-    path = Path(path)
+    path = opened(path)
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -2,7 +2,7 @@
 
 A module is followed to what it imports, wherever in the file the import stands; a name that a
 package merely passes on is followed to the module that defines it. What counts of a module is its
-code: docstrings, comments and empty lines change no digest. Imports for type checkers count as comments.
+code: docstrings, comments and empty lines change no digest; imports for type checkers are left out.
 """
 
 from __future__ import annotations

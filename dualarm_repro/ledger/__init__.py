@@ -4,8 +4,9 @@ from .evaluation import Evaluation, evaluate, prove
 from .record import record
 from .registry import REGISTRY, Registry
 from .result import Assumed, Proof, Result
-from .robustness import Robustness, robustness
-from .rules import Adopts, Bounded, Is, NeedsPrinted, Role, Rounds, Rule
+from .rules import Adopts, Bounded, Exceeds, Generally, Is, NoOriginal, Role, Rounds, Rule
+from .settled import Settled, settle
+from .shares import Share
 from .study import Study
 from .verdict import MEANING, Verdict
 
@@ -16,19 +17,22 @@ __all__ = [
     "Assumed",
     "Bounded",
     "Evaluation",
+    "Exceeds",
+    "Generally",
     "Is",
-    "NeedsPrinted",
+    "NoOriginal",
     "Proof",
     "Registry",
     "Result",
-    "Robustness",
     "Role",
     "Rounds",
     "Rule",
+    "Settled",
+    "Share",
     "Study",
     "Verdict",
     "evaluate",
     "prove",
     "record",
-    "robustness",
+    "settle",
 ]

@@ -29,7 +29,7 @@ class Evaluation:
         """What the rules look at."""
         if self.result is None:
             raise LedgerError(f"{self.item_id}: nothing obtained, {self.item.pending}")
-        return Evidence(self.result.obtained, self.item.printed)
+        return evidence_of(self.item, self.result)
 
     def checks(self) -> list[dict[str, Any]]:
         """Each rule with what it expected, what it found and whether it holds."""
@@ -56,31 +56,40 @@ def assumed_values(
     return Assumed({key: entry.value for key, entry in assumptions.items()} | dict(changes or {}))
 
 
+def evidence_of(item: Item, result: Result) -> Evidence:
+    """What the rules of an item look at."""
+    thresholds = {name: entry.value for name, entry in item.thresholds.items()}
+    return Evidence(result.obtained, item.printed, thresholds)
+
+
 def evaluate(
     registry: Registry, item_id: str, changes: Mapping[str, Any] | None = None
 ) -> Evaluation:
-    """Compute an item, under changed assumptions if given, and derive its verdict.
+    """Compute an item at one choice of its assumptions, and judge it there.
+
+    The inputs that are read are noted, see :mod:`..tracking`.
 
     Raises
     ------
     UnknownNameError
         No such item.
     LedgerError
-        The computation does not read exactly the assumptions that the item declares, so that a page
-        would hide one or show one that does not matter.
+        The computation reads an assumption that the item does not declare, so that a page would
+        hide it.
     """
-    item = registry.item(item_id)
-    checker = registry.checkers.get(item_id)
+    item = registry.look(item_id, "printed", "thresholds", "assumptions", "context")
+    checker = registry.checker(item_id)
     if checker is None:
         return Evaluation(item_id, item, None, None, Verdict.NOT_ATTEMPTED)
     assumed = assumed_values(registry, item_id, changes)
     result = checker.compute(assumed)
-    if assumed.read != set(item.assumptions):
-        declared, read = sorted(item.assumptions), sorted(assumed.read)
-        raise LedgerError(f"{item_id}: declares the assumptions {declared}, but reads {read}")
+    if undeclared := sorted(assumed.read - {*item.assumptions, *item.context}):
+        raise LedgerError(f"{item_id}: reads the assumptions {undeclared}, but declares them not")
+    for name in sorted(assumed.read):
+        registry.assumption(f"{item_id.partition('.')[0]}.{name}")
     verdict = decide(
         checker.rules,
-        Evidence(result.obtained, item.printed),
+        evidence_of(item, result),
         assumed=bool(item.assumptions),
         change=checker.change,
     )
@@ -89,5 +98,5 @@ def evaluate(
 
 def prove(registry: Registry, erratum_id: str) -> Proof | None:
     """Run the machine proof of an erratum, if one is registered."""
-    proof = registry.proofs.get(erratum_id)
+    proof = registry.proof(erratum_id)
     return None if proof is None else proof()

@@ -13,9 +13,10 @@ from ..errors import DataFileError
 from .drift import differences
 from .evaluation import evaluate, prove
 from .files import to_json, write_text
-from .fingerprint import versions
 from .registry import Registry
+from .settled import settle
 from .verdict import Verdict
+from .workers import results
 
 
 def reference_path(paper: str) -> Path:
@@ -29,52 +30,77 @@ def read_reference(paper: str) -> dict[str, Any]:
     Raises
     ------
     DataFileError
-        The file is there but is no JSON.
+        The file is there but holds no reference results.
     """
     path = reference_path(paper)
     if not path.is_file():
         return {}
     try:
-        return json.loads(path.read_text(encoding="utf-8"))["items"]
-    except (ValueError, KeyError) as error:
+        found = json.loads(path.read_text(encoding="utf-8"))["items"]
+    except (ValueError, KeyError, TypeError) as error:
         raise DataFileError(path, "file", str(error), "reference results as JSON") from None
+    if not isinstance(found, dict) or not all(isinstance(v, dict) for v in found.values()):
+        raise DataFileError(path, "items", found, "reference results as JSON, by item id")
+    return found
 
 
 def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
     """What is compared: verdict, obtained values and the proofs of the errata, as plain JSON."""
     evaluation = evaluate(registry, item_id)
+    settled = settle(registry, evaluation, lambda other: outcome(registry, other)["verdict"])
     proofs = {key: prove(registry, key) for key in registry.errata_of(item_id)}
     found = {
-        "verdict": str(evaluation.verdict),
+        "verdict": str(settled.verdict),
         "obtained": evaluation.result.obtained if evaluation.result else None,
         "proofs": {key: proof.holds for key, proof in proofs.items() if proof},
     }
     return json.loads(to_json(found))
 
 
-def verify(registry: Registry, item_ids: Iterable[str], *, update: bool = False) -> dict[str, Any]:
+def verify(
+    registry: Registry,
+    item_ids: Iterable[str],
+    *,
+    update: bool = False,
+    jobs: int = 1,
+    progress: bool = False,
+    scheduler: str | None = None,
+) -> dict[str, Any]:
     """Recompute items from nothing and compare them with the reference.
+
+    Parameters
+    ----------
+    update
+        Rewrite the reference instead.
+    jobs, scheduler
+        Worker processes on this machine, or the address of a Dask scheduler.
 
     Returns
     -------
     dict
         ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``) and ``verdicts``
-        (count per verdict). With ``update`` the reference is rewritten instead.
+        (count per verdict).
     """
-    found = {item_id: outcome(registry, item_id) for item_id in item_ids}
+    ids = list(item_ids)
+    tasks = ((_outcome, registry.reopen, item_id) for item_id in ids)
+    made = results(tasks, len(ids), "verify", jobs, progress, scheduler)
+    found = dict(zip(ids, made, strict=True))
     papers = {item_id.partition(".")[0] for item_id in found}
     reference = {key: value for paper in papers for key, value in read_reference(paper).items()}
     if update:
         for paper in sorted(papers):
             kept = {**read_reference(paper), **found}
             items = {i: kept[i] for i in registry.items if i in kept and i.startswith(f"{paper}.")}
-            content = {"versions": versions(), "items": items}
-            write_text(reference_path(paper), to_json(content))
+            write_text(reference_path(paper), to_json({"items": items}))
     drifted = [
         {"id": item_id, "differences": lines}
-        for item_id, made in found.items()
-        if not update and (lines := differences(reference.get(item_id), made))
+        for item_id, one in found.items()
+        if not update and (lines := differences(reference.get(item_id), one))
     ]
-    counts = Counter(made["verdict"] for made in found.values())
+    counts = Counter(one["verdict"] for one in found.values())
     verdicts = {str(v): counts[v] for v in Verdict if counts[v]}
     return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
+
+
+def _outcome(reopen: Any, item_id: str) -> dict[str, Any]:
+    return outcome(reopen(), item_id)

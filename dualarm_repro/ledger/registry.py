@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
+from ..tracking import note
 from .result import Assumed, Proof, Result
 from .rules import Rule
-from .schema import Erratum, Item, PaperFile, load_paper
-from .sensitivity import Robustness
+from .schema import Assumption, Erratum, Item, PaperFile, load_paper
 from .study import Study
+
+#: Draws of the assumptions that are stored where a checker asks for no other number.
+SAMPLES = 32
 
 Compute = Callable[[Assumed], Result]
 Prove = Callable[[], Proof]
@@ -21,24 +26,109 @@ Prove = Callable[[], Proof]
 
 @dataclass(frozen=True)
 class Checker:
-    """How one item is computed and judged."""
+    """How one item is computed and judged; ``samples`` draws tell how firmly."""
 
     compute: Compute
     rules: tuple[Rule, ...]
     page: str
     change: str | None = None
-    samples: int = 0
-    robust: Callable[[], Robustness] | None = None
+    samples: int = SAMPLES
 
 
-@dataclass
 class Registry:
-    """Documents read from YAML and the code registered for their items and errata."""
+    """Documents read from YAML and the code registered for their items and errata.
 
-    papers: dict[str, PaperFile] = field(default_factory=dict)
-    checkers: dict[str, Checker] = field(default_factory=dict)
-    proofs: dict[str, Prove] = field(default_factory=dict)
-    studies: dict[str, Study] = field(default_factory=dict)
+    Both are read when they are asked for: a question about one item reads its document alone.
+
+    Parameters
+    ----------
+    folder
+        Where the ``*.yaml`` of the documents are; default ``data/papers``.
+    rooms
+        Package whose module ``<rooms>.<document>`` registers the checkers of a document when it is
+        imported; without it, whoever makes the registry registers them.
+    reopen
+        Gives the same registry in another process; default the registry itself, pickled.
+    """
+
+    def __init__(
+        self,
+        folder: Path | None = None,
+        rooms: str | None = None,
+        reopen: Callable[[], Registry] | None = None,
+    ) -> None:
+        self._folder, self._rooms = folder, rooms
+        self._papers: dict[str, PaperFile] = {}
+        self._entered: set[str] = set()
+        self._checkers: dict[str, Checker] = {}
+        self._proofs: dict[str, Prove] = {}
+        self._studies: dict[str, Study] = {}
+        self.reopen = reopen or (lambda: self)
+
+    @property
+    def documents(self) -> tuple[str, ...]:
+        """Ids of the documents, in the order of the listings."""
+        return tuple(self.papers)
+
+    @property
+    def papers(self) -> dict[str, PaperFile]:
+        """Every document by its id."""
+        for path in sorted((self._folder or data_path("papers")).glob("*.yaml")):
+            self._read(path.stem)
+        order = sorted(self._papers.values(), key=lambda p: (p.document.order, p.document.id))
+        self._papers = {paper.document.id: paper for paper in order}
+        return self._papers
+
+    def _read(self, name: str) -> None:
+        if name not in self._papers:
+            path = (self._folder or data_path("papers")) / f"{name}.yaml"
+            paper = load_paper(path)
+            if paper.document.id != name:
+                raise LedgerError(f"{path.name}: document.id is {paper.document.id!r}")
+            self._papers[name] = paper
+
+    def enter(self, name: str) -> None:
+        """Import the room of a document, which registers its checkers, proofs and studies."""
+        if self._rooms and name not in self._entered:
+            self._entered.add(name)
+            try:
+                import_module(f"{self._rooms}.{name}")
+            except ModuleNotFoundError as error:
+                if error.name != f"{self._rooms}.{name}":
+                    raise
+                raise LedgerError(f"{name}: a document without a room in {self._rooms}") from None
+
+    def _all_rooms(self) -> None:
+        for name in self.documents:
+            self.enter(name)
+
+    @property
+    def checkers(self) -> dict[str, Checker]:
+        """The checkers of all documents by item id."""
+        self._all_rooms()
+        return self._checkers
+
+    @property
+    def proofs(self) -> dict[str, Prove]:
+        """The proofs of all documents by erratum id."""
+        self._all_rooms()
+        return self._proofs
+
+    @property
+    def studies(self) -> dict[str, Study]:
+        """The stored studies of all documents by name."""
+        self._all_rooms()
+        return self._studies
+
+    def checker(self, item_id: str) -> Checker | None:
+        """The checker of an item; only the room of its document is imported."""
+        self.enter(item_id.partition(".")[0])
+        return self._checkers.get(item_id)
+
+    def proof(self, erratum_id: str) -> Prove | None:
+        """The proof of an erratum; only the room of its document is imported."""
+        self.enter(erratum_id.partition(".")[0])
+        return self._proofs.get(erratum_id)
 
     def checks(
         self,
@@ -47,8 +137,7 @@ class Registry:
         *,
         page: str,
         change: str | None = None,
-        samples: int = 0,
-        robust: Callable[[], Robustness] | None = None,
+        samples: int = SAMPLES,
     ) -> Callable[[Compute], Compute]:
         """Decorator: the function computes ``item_id`` and ``rules`` judge it.
 
@@ -59,60 +148,92 @@ class Registry:
         change
             For an input that is not used as printed: what was changed.
         samples
-            How many draws of the assumptions the robustness of the verdict is based on (0: none).
-        robust
-            Where a draw is too heavy for that: reads the robustness from a stored study.
+            How many draws of the assumptions are stored with the verdict.
 
         Raises
         ------
         LedgerError
             The item has a checker already, or there is no rule.
         """
-        if item_id in self.checkers:
+        if item_id in self._checkers:
             raise LedgerError(f"{item_id}: a second checker")
         if not rules:
             raise LedgerError(f"{item_id}: a checker without rules cannot fail")
 
         def register(compute: Compute) -> Compute:
-            self.checkers[item_id] = Checker(compute, tuple(rules), page, change, samples, robust)
+            self._checkers[item_id] = Checker(compute, tuple(rules), page, change, samples)
             return compute
 
         return register
 
     def proves(self, erratum_id: str) -> Callable[[Prove], Prove]:
         """Decorator: the function proves an erratum (``xue.table1_shift``)."""
-        if erratum_id in self.proofs:
+        if erratum_id in self._proofs:
             raise LedgerError(f"{erratum_id}: a second proof")
 
         def register(prove: Prove) -> Prove:
-            self.proofs[erratum_id] = prove
+            self._proofs[erratum_id] = prove
             return prove
 
         return register
 
     def keeps(self, study: Study) -> Study:
         """Register a stored study."""
-        if study.name in self.studies:
+        if study.name in self._studies:
             raise LedgerError(f"{study.name}: a second study of that name")
-        self.studies[study.name] = study
+        self._studies[study.name] = study
         return study
 
-    def load(self, folder: Path | None = None) -> None:
-        """Read every ``*.yaml`` below ``data/papers`` (or ``folder``)."""
-        found = []
-        for path in (folder or data_path("papers")).glob("*.yaml"):
-            paper = load_paper(path)
-            if paper.document.id != path.stem:
-                raise LedgerError(f"{path.name}: document.id is {paper.document.id!r}")
-            found.append(paper)
-        for paper in sorted(found, key=lambda paper: (paper.document.order, paper.document.id)):
-            self.papers[paper.document.id] = paper
-
     def paper(self, name: str) -> PaperFile:
-        """A document; a process that has read none yet, such as a worker of a study, reads them."""
-        if not self.papers:
-            self.load()
-        return self.papers[name]
+        """A document, whole; a computation that reads it depends on all of the file.
+
+        Raises
+        ------
+        UnknownNameError
+            No such document.
+        """
+        if not (self._folder or data_path("papers")).joinpath(f"{name}.yaml").is_file():
+            raise UnknownNameError("ledger", "document", name, f"one of {', '.join(self.papers)}")
+        self._read(name)
+        note(f"papers/{name}.yaml")
+        return self._papers[name]
+
+    def printed(self, item_id: str) -> Any:
+        """What an item prints; a computation that reads it depends on that part alone."""
+        return self.look(item_id, "printed").printed
+
+    def assumption(self, name: str) -> Any:
+        """The value of an assumption ``<document>.<key>``, on which the computation then depends.
+
+        Raises
+        ------
+        UnknownNameError
+            No such assumption.
+        """
+        return self.declared(name, "value").value
+
+    def declared(self, name: str, *fields: str) -> Assumption:
+        """An assumption, for a computation that depends on these fields of it."""
+        paper, _, key = name.partition(".")
+        self._read(paper)
+        known = self._papers[paper].assumptions
+        if key not in known:
+            raise UnknownNameError("ledger", "assumption", name, f"one of {', '.join(known)}")
+        note(*(_part(name, "assumptions", field) for field in fields))
+        return known[key]
+
+    def nominal(self, paper: str) -> dict[str, Any]:
+        """The values of all assumptions of a document."""
+        self._read(paper)
+        return {key: self.assumption(f"{paper}.{key}") for key in self._papers[paper].assumptions}
+
+    def part(self, name: str) -> Any:
+        """The part of a document that a recorded input ``papers/xue.yaml#items.tab01`` names."""
+        path, _, fields = name.partition("#")
+        found: Any = self.paper(Path(path).stem).model_dump(mode="json")
+        for field in fields.split(".") if fields else ():
+            found = found.get(field) if isinstance(found, dict) else None
+        return found
 
     @property
     def items(self) -> dict[str, Item]:
@@ -140,22 +261,53 @@ class Registry:
         UnknownNameError
             With the nearest ids that exist.
         """
+        item = self._find(item_id)
+        note(_part(item_id, "items"))
+        return item
+
+    def look(self, item_id: str, *fields: str) -> Item:
+        """The item, for a computation that depends on these fields of it alone."""
+        item = self._find(item_id)
+        note(*(_part(item_id, "items", field) for field in fields))
+        return item
+
+    def _find(self, item_id: str) -> Item:
+        paper, _, key = item_id.partition(".")
+        if (
+            paper.isidentifier()
+            and (self._folder or data_path("papers")).joinpath(f"{paper}.yaml").is_file()
+        ):
+            self._read(paper)
+            if key in self._papers[paper].items:
+                return self._papers[paper].items[key]
         items = self.items
-        if item_id not in items:
-            near = get_close_matches(item_id, items, n=3, cutoff=0.5)
-            hint = f"an item id such as {', '.join(near or list(items)[:3])}"
-            raise UnknownNameError("ledger", "item id", item_id, f"{hint} (see `dualarm list`)")
-        return items[item_id]
+        near = get_close_matches(item_id, items, n=3, cutoff=0.5)
+        hint = f"an item id such as {', '.join(near or list(items)[:3])}"
+        raise UnknownNameError("ledger", "item id", item_id, f"{hint} (see `dualarm list`)")
 
     def paper_of(self, item_id: str) -> PaperFile:
         """The document an item id belongs to."""
-        self.item(item_id)
-        return self.papers[item_id.partition(".")[0]]
+        self._find(item_id)
+        return self._papers[item_id.partition(".")[0]]
 
     def errata_of(self, item_id: str) -> dict[str, Erratum]:
         """The errata that touch an item."""
-        return {key: erratum for key, erratum in self.errata.items() if item_id in erratum.affects}
+        name = item_id.partition(".")[0]
+        return {
+            f"{name}.{key}": erratum
+            for key, erratum in self.paper_of(item_id).errata.items()
+            if item_id in erratum.affects
+        }
 
 
-#: The registry the papers register with and every view reads.
-REGISTRY = Registry()
+def _part(name: str, kind: str, *fields: str) -> str:
+    paper, _, key = name.partition(".")
+    return f"papers/{paper}.yaml#" + ".".join((kind, key, *fields))
+
+
+def _reopened() -> Registry:
+    return REGISTRY
+
+
+#: The registry the papers register with and every view reads; each document has a room there.
+REGISTRY = Registry(rooms="dualarm_repro.papers", reopen=_reopened)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,9 @@ class Result:
         States the finding, with the obtained numbers in it.
     alt
         Text for a reader who cannot see the figure.
+    witnesses
+        For a statement about a population that a sample leaves open: an example for each side, with
+        ``verdict`` and ``values``.
     figure, scene
         Draw the figure (a matplotlib figure) or the 3-D scene (an object with ``html()``); called
         only when somebody looks.
@@ -37,6 +41,7 @@ class Result:
     alt: str | None = None
     figure: Callable[[], Any] | None = None
     scene: Callable[[], Any] | None = None
+    witnesses: Sequence[Mapping[str, Any]] = ()
 
     def __post_init__(self) -> None:
         if self.figure is not None and not self.alt:

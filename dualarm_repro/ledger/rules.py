@@ -7,14 +7,17 @@ to prove that every verdict depends on what was obtained.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
 
+from ..errors import LedgerError
 from .printed import EXACT, at, leaves, read_number, replaced, rounds_to
+from .shares import Share
 
 
 class Role(StrEnum):
@@ -22,29 +25,47 @@ class Role(StrEnum):
 
     SUPPORTS = "supports"  # what we obtain agrees with print
     CONTRADICTS = "contradicts"  # the document contradicts itself
-    DECIDES = "decides"  # the datum that is needed to decide is printed
+    REGENERATES = "regenerates"  # the source at hand holds no original to compare with
     ADOPTS = "adopts"  # the scenario uses the printed input as it is
+
+
+class Outcome(StrEnum):
+    """What a statement comes to; only a statistical one can stay open."""
+
+    HOLDS = "holds"
+    FAILS = "fails"
+    OPEN = "open"
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """The two sides of a rule: ``obtained`` from the computation, ``printed`` from the item."""
+    """What a rule looks at: ``obtained`` by the computation, ``printed`` and ``thresholds`` of the
+    item."""
 
     obtained: dict[str, Any]
     printed: Any
+    thresholds: Mapping[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Rule(ABC):
     """A statement about one entry of what was obtained."""
 
     key: str
     label: str
-    role: Role = Role.SUPPORTS
+    role: Role = field(default=Role.SUPPORTS, kw_only=True)
 
     @abstractmethod
     def holds(self, evidence: Evidence) -> bool:
         """Whether the statement is true of the evidence."""
+
+    def outcome(self, evidence: Evidence) -> Outcome:
+        """The same with a third answer, for rules about a sample of a population."""
+        return Outcome.HOLDS if self.holds(evidence) else Outcome.FAILS
+
+    def miss(self, evidence: Evidence) -> float:
+        """How far the statement is from holding, 0 where it holds; guides a directed search."""
+        return 0.0 if self.holds(evidence) else 1.0
 
     @abstractmethod
     def expectation(self, evidence: Evidence) -> str:
@@ -60,7 +81,7 @@ class Rule(ABC):
 
     def _with(self, evidence: Evidence, value: Any) -> Evidence:
         path = tuple(self.key.split("."))
-        return Evidence(replaced(evidence.obtained, path, value), evidence.printed)
+        return replace(evidence, obtained=replaced(evidence.obtained, path, value))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +114,16 @@ class Rounds(Rule):
         pairs = self._pairs(evidence)
         return bool(pairs) and all(self._meets(text, value) for _, text, value in pairs)
 
+    def miss(self, evidence: Evidence) -> float:
+        if self.holds(evidence):
+            return 0.0
+        gaps = [
+            abs(value - read_number(text)[0]) / max(abs(read_number(text)[0]), read_number(text)[1])
+            for _, text, value in self._pairs(evidence)
+            if not isinstance(value, bool) and isinstance(value, int | float) and isfinite(value)
+        ]
+        return max(gaps, default=inf)
+
     def expectation(self, evidence: Evidence) -> str:
         text = f"printed {_plain(at(evidence.printed, self.to))}"
         return (
@@ -115,34 +146,151 @@ class Rounds(Rule):
 
 @dataclass(frozen=True, kw_only=True)
 class Bounded(Rule):
-    """A number lies in [low, high]; either bound may be absent."""
+    """A number lies in [low, high]; either bound may be absent.
 
-    low: float | None = None
-    high: float | None = None
+    A bound is a number, or the name of a threshold that the item declares with its reason.
+    """
+
+    low: float | str | None = None
+    high: float | str | None = None
 
     def __post_init__(self) -> None:
         if self.low is None and self.high is None:
             raise ValueError("a bound is needed")
 
+    def bounds(self, evidence: Evidence) -> tuple[float, float]:
+        """Both bounds as numbers, infinite where absent.
+
+        Raises
+        ------
+        LedgerError
+            The item declares no threshold of that name.
+        """
+        return (
+            _bound(self.low, -inf, evidence.thresholds),
+            _bound(self.high, inf, evidence.thresholds),
+        )
+
     def holds(self, evidence: Evidence) -> bool:
-        value = self.found(evidence)
+        value, (low, high) = self.found(evidence), self.bounds(evidence)
+        return value is not None and isfinite(value) and low <= value <= high
+
+    def miss(self, evidence: Evidence) -> float:
+        value, (low, high) = self.found(evidence), self.bounds(evidence)
         if value is None or not isfinite(value):
-            return False
-        return (self.low is None or value >= self.low) and (self.high is None or value <= self.high)
+            return inf
+        gap = max(low - value, value - high, 0.0)
+        return gap / max(abs(low if value < low else high), 1e-9) if gap else 0.0
 
     def expectation(self, evidence: Evidence) -> str:
-        if self.low is None:
-            return f"at most {self.high:g}"
-        if self.high is None:
-            return f"at least {self.low:g}"
-        return f"between {self.low:g} and {self.high:g}"
+        low, high = self.bounds(evidence)
+        if low == -inf:
+            return f"at most {high:g}"
+        if high == inf:
+            return f"at least {low:g}"
+        return f"between {low:g} and {high:g}"
 
     def flipped(self, evidence: Evidence) -> Evidence:
+        low, high = self.bounds(evidence)
         if not self.holds(evidence):
-            return self._with(evidence, self.low if self.low is not None else self.high)
-        if self.high is not None:
-            return self._with(evidence, self.high + max(1e-9, abs(self.high)))
-        return self._with(evidence, self.low - max(1e-9, abs(self.low)))
+            return self._with(evidence, low if low > -inf else high)
+        if high < inf:
+            return self._with(evidence, high + max(1e-9, abs(high)))
+        return self._with(evidence, low - max(1e-9, abs(low)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Generally(Rule):
+    """A statement about a whole population, of which a sample was drawn: three answers.
+
+    The obtained value is a mapping with ``count`` and ``of``. With its 95 % interval after Wilson,
+    the statement holds where the whole interval lies at or above ``at_least``, fails where it lies
+    below ``at_least - margin``, and is open otherwise (for ``at_most`` the other way round). More
+    draws can only settle what is open.
+    """
+
+    at_least: float | str | None = None
+    at_most: float | str | None = None
+    margin: float | str = 0.0
+
+    def __post_init__(self) -> None:
+        if (self.at_least is None) == (self.at_most is None):
+            raise ValueError("give either at_least or at_most")
+
+    def _limits(self, evidence: Evidence) -> tuple[float, float]:
+        limit = self.at_most if self.at_least is None else self.at_least
+        return (
+            _bound(limit, inf, evidence.thresholds),
+            _bound(self.margin, 0.0, evidence.thresholds),
+        )
+
+    def share(self, evidence: Evidence) -> Share:
+        """The observed share with its interval."""
+        found = self.found(evidence)
+        return Share.of(found["count"], found["of"])
+
+    def outcome(self, evidence: Evidence) -> Outcome:
+        (limit, margin), share = self._limits(evidence), self.share(evidence)
+        if self.at_least is not None:
+            above, below = share.low >= limit, share.high < limit - margin
+        else:
+            above, below = share.high <= limit, share.low > limit + margin
+        return Outcome.HOLDS if above else Outcome.FAILS if below else Outcome.OPEN
+
+    def holds(self, evidence: Evidence) -> bool:
+        return self.outcome(evidence) is Outcome.HOLDS
+
+    def miss(self, evidence: Evidence) -> float:
+        (limit, _), share = self._limits(evidence), self.share(evidence)
+        return 0.0 if self.holds(evidence) else abs(limit - share.value)
+
+    def expectation(self, evidence: Evidence) -> str:
+        limit, margin = self._limits(evidence)
+        side, other = ("at least", "below") if self.at_least is not None else ("at most", "above")
+        edge = limit - margin if self.at_least is not None else limit + margin
+        return f"{side} {limit:g} of the population; fails {other} {edge:g}, else open"
+
+    def flipped(self, evidence: Evidence) -> Evidence:
+        many = 10_000
+        good = self.at_least is not None
+        count = 0 if self.holds(evidence) is good else many
+        return self._with(evidence, {**self.found(evidence), "count": count, "of": many})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exceeds(Rule):
+    """An estimate lies above ``threshold``, with its interval: three answers.
+
+    The obtained value is a mapping with ``value``, ``low`` and ``high``. It holds where the whole
+    interval lies above the threshold, fails where it lies below, and is open otherwise.
+    """
+
+    threshold: float | str = 0.0
+
+    def _edge(self, evidence: Evidence) -> float:
+        return _bound(self.threshold, 0.0, evidence.thresholds)
+
+    def outcome(self, evidence: Evidence) -> Outcome:
+        found, edge = self.found(evidence), self._edge(evidence)
+        if found["low"] > edge:
+            return Outcome.HOLDS
+        return Outcome.FAILS if found["high"] < edge else Outcome.OPEN
+
+    def holds(self, evidence: Evidence) -> bool:
+        return self.outcome(evidence) is Outcome.HOLDS
+
+    def miss(self, evidence: Evidence) -> float:
+        edge, found = self._edge(evidence), self.found(evidence)
+        return 0.0 if self.holds(evidence) else max(edge - found["low"], 0.0)
+
+    def expectation(self, evidence: Evidence) -> str:
+        return f"interval above {self._edge(evidence):g}; fails below, else open"
+
+    def flipped(self, evidence: Evidence) -> Evidence:
+        sign = -1.0 if self.holds(evidence) else 1.0
+        away = [self._edge(evidence) + sign * step for step in (1.0, 0.5, 1.5)]
+        names = ("value", "low", "high") if sign > 0 else ("value", "high", "low")
+        return self._with(evidence, dict(zip(names, away, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +335,7 @@ class Adopts(Rule):
     """The scenario feeds the method with the printed input, digit for digit."""
 
     to: str
-    role: Role = Role.ADOPTS
+    role: Role = field(default=Role.ADOPTS, kw_only=True)
 
     def _exact(self) -> Rounds:
         return Rounds(key=self.key, label=self.label, to=self.to, tolerance=EXACT, reason="input")
@@ -203,26 +351,37 @@ class Adopts(Rule):
 
 
 @dataclass(frozen=True, kw_only=True)
-class NeedsPrinted(Rule):
-    """The verdict cannot be reached unless the document prints the datum ``key``."""
+class NoOriginal(Rule):
+    """The source at hand holds no original ``key`` (a drawing, a formula) to compare with.
 
-    role: Role = Role.DECIDES
+    What is obtained then is regenerated: it must have the properties that the other rules check.
+    """
+
+    role: Role = field(default=Role.REGENERATES, kw_only=True)
 
     def found(self, evidence: Evidence) -> Any:
         printed = evidence.printed
         return printed.get(self.key) if isinstance(printed, dict) else None
 
     def holds(self, evidence: Evidence) -> bool:
-        return self.found(evidence) is not None
+        return self.found(evidence) is None
 
     def expectation(self, evidence: Evidence) -> str:
-        return f"{self.label} in print"
+        return f"{self.label}: no original in the source at hand"
 
     def flipped(self, evidence: Evidence) -> Evidence:
-        printed = dict(evidence.printed or {})
+        printed = dict(evidence.printed) if isinstance(evidence.printed, dict) else {}
         if printed.pop(self.key, None) is None:
             printed[self.key] = "supplied"
-        return Evidence(evidence.obtained, printed)
+        return replace(evidence, printed=printed)
+
+
+def _bound(limit: float | str | None, absent: float, thresholds: Mapping[str, float]) -> float:
+    if isinstance(limit, str):
+        if limit not in thresholds:
+            raise LedgerError(f"no threshold named {limit!r} is declared for the item")
+        return thresholds[limit]
+    return absent if limit is None else limit
 
 
 def _plain(value: Any) -> str:

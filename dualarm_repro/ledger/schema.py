@@ -80,6 +80,18 @@ class Assumption(Model):
     )
     choices: list[Any] | None = Field(default=None, description="plausible alternatives")
 
+    @property
+    def varies(self) -> bool:
+        """Whether another plausible value is declared."""
+        return self.range is not None or len(self.choices or []) > 1
+
+    def at(self, share: float) -> Any:
+        """The plausible value at a share in [0, 1) of the range or of the choices."""
+        if self.range is not None:
+            low, high = self.range
+            return float(low + share * (high - low))
+        return self.choices[int(share * len(self.choices))]
+
     @model_validator(mode="after")
     def _value_is_plausible(self) -> Assumption:
         if self.range is not None:
@@ -105,6 +117,20 @@ class Erratum(Model):
     )
 
 
+class Threshold(Model):
+    """A number that a rule compares with, and why it is that number."""
+
+    value: float
+    reason: Text
+
+
+class Search(Model):
+    """A directed search for a choice of the assumptions under which print is met."""
+
+    starts: int = Field(default=8, gt=0, description="independent climbs")
+    evaluations: int = Field(default=40, gt=0, description="evaluations of each climb")
+
+
 class Item(Model):
     """One printed figure, table, equation or claim."""
 
@@ -118,7 +144,31 @@ class Item(Model):
     unit: Text | None = None
     needs: Text = Field(description="what has to be computed or shown")
     missing: list[Text] = Field(default=[], description="data it depends on that is not printed")
-    assumptions: list[Key] = Field(default=[], description="ids of assumptions it rests on")
+    assumptions: list[Key] = Field(
+        default=[], description="ids of assumptions, each of which can move a judged value"
+    )
+    context: list[Key] = Field(
+        default=[], description="ids of assumptions that are read, but can move no judged value"
+    )
+    scope: Literal["run", "general"] = Field(
+        default="run",
+        description="run: about one run of the authors, which is possible or not found; "
+        "general: it claims more than possibility",
+    )
+    statements: list[Text] = Field(
+        default=[],
+        description="full ids of the statements of the text about a lost original; one that "
+        "decides takes precedence over `regenerated`",
+    )
+    thresholds: dict[Key, Threshold] = Field(
+        default={}, description="numbers that the rules compare with, by name"
+    )
+    search: Search | None = Field(
+        default=None, description="directed search for a witness, where sampling finds none"
+    )
+    seek: Text | None = Field(
+        default=None, description="which witness is still to be sought, and where"
+    )
     notes: Text | None = None
     pending: Text | None = Field(
         default=None, description="declared reason why no checker is registered yet"
@@ -136,10 +186,17 @@ class PaperFile(Model):
     @model_validator(mode="after")
     def _references_exist(self) -> PaperFile:
         for key, item in self.items.items():
-            for name in item.assumptions:
-                if name not in self.assumptions:
-                    raise ValueError(f"items.{key}.assumptions: no assumption named {name!r}")
+            for field in ("assumptions", "context"):
+                for name in getattr(item, field):
+                    if name not in self.assumptions:
+                        raise ValueError(f"items.{key}.{field}: no assumption named {name!r}")
+            if both := set(item.assumptions) & set(item.context):
+                raise ValueError(f"items.{key}.context: {sorted(both)} are assumptions already")
         known = {f"{self.document.id}.{key}" for key in self.items}
+        for key, item in self.items.items():
+            for name in item.statements:
+                if name not in known:
+                    raise ValueError(f"items.{key}.statements: no item named {name!r}")
         for key, erratum in self.errata.items():
             for name in erratum.affects:
                 if name not in known:

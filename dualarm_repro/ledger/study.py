@@ -1,7 +1,8 @@
 """Heavy studies: stored results that cannot go stale unseen.
 
 A study is a list of cells; each is computed by itself from its settings and its own random stream,
-so that the outcome does not depend on order, on the number of workers or on interruptions.
+so that the outcome does not depend on order, on the number of workers or on interruptions. With it
+are stored the closure of what it depends on and a hash of the table itself.
 """
 
 from __future__ import annotations
@@ -11,19 +12,25 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
-from joblib import Parallel, delayed
-from tqdm import tqdm
 
-from ..datafiles import data_path, data_root
+from ..datafiles import data_path, opened
 from ..errors import DataFileError, InputError, LedgerError
+from ..tracking import recording
+from .closure import closure, hash_file, hash_inputs
 from .drift import differences
 from .files import to_json, write, write_text
-from .fingerprint import hash_files, versions
+from .streams import stream
+from .workers import results
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from .registry import Registry
 
 _CHUNKS = 64
 
@@ -42,28 +49,31 @@ class Study:
         Returns the settings of every cell, JSON-able mappings.
     compute
         One cell: settings and its generator to a flat mapping of numbers, booleans and texts.
-    sources
-        What the outcome depends on, relative to the package: files or folders of ``*.py``
-        ("planning", "papers/xue/lottery.py").
-    inputs
-        Data files it depends on, relative to ``data``.
     seed
         Entropy of all random streams; cell k uses spawn key (k,).
     settings
         Frozen settings, recorded with the result.
     measured
         Columns that depend on the machine and are not compared (times).
+    nested
+        Columns that hold JSON texts, compared by what they mean.
+    peers
+        Packages of others that some columns are computed with, with the prefix of those columns.
+    also
+        Modules that it depends on beside the closure of ``compute`` and ``cells``.
     """
 
     name: str
     title: str
     cells: Callable[[], list[dict[str, Any]]]
     compute: Callable[[Mapping[str, Any], np.random.Generator], Mapping[str, Any]]
-    sources: tuple[str, ...]
     seed: int
-    inputs: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     measured: tuple[str, ...] = ()
+    nested: tuple[str, ...] = ()
+    peers: Mapping[str, str] = field(default_factory=dict)
+    also: tuple[str, ...] = ()
+    registry: Registry | None = field(default=None, repr=False, compare=False)
 
     @property
     def table_path(self) -> Path:
@@ -72,40 +82,66 @@ class Study:
 
     @property
     def meta_path(self) -> Path:
-        """Seed, settings, hash of the sources and versions of the stored outcome."""
+        """Seed, settings, closure, inputs, versions and hash of the stored outcome."""
         return data_path("results", f"{self.name}.json")
 
     @cached_property
-    def source_hash(self) -> str:
-        """Hash of sources, inputs, seed and settings as they are now."""
-        package = Path(__file__).resolve().parents[1]
-        files = [p for name in self.sources for p in _python_files(package / name)]
-        inputs = [data_path(name) for name in self.inputs]
-        settings = to_json({"seed": self.seed, "settings": dict(self.settings)})
-        return hash_files(files, package) + hash_files(inputs, data_root()) + hash_text(settings)
+    def code(self) -> dict[str, Any]:
+        """Digest of code, seed and settings as they are now, with the modules and versions."""
+        found = closure([self.compute, self.cells], ("dualarm_repro.ledger.streams", *self.also))
+        settings = to_json({"seed": self.seed, "settings": dict(self.settings)}, indent=None)
+        text = f"{found.digest} {settings}"
+        return {
+            "digest": sha256(text.encode()).hexdigest(),
+            "modules": list(found.modules),
+            "versions": dict(found.versions),
+        }
 
     def cell(self, index: int, settings: Mapping[str, Any]) -> dict[str, Any]:
         """Compute one cell with its own random stream."""
-        stream = np.random.SeedSequence(self.seed, spawn_key=(index,))
-        return dict(self.compute(settings, np.random.default_rng(stream)))
+        return dict(self.compute(settings, stream(self.seed, index)))
 
     def run(
-        self, jobs: int = 1, progress: bool = False, scratch: Path | None = None
+        self,
+        jobs: int = 1,
+        progress: bool = False,
+        scratch: Path | None = None,
+        scheduler: str | None = None,
     ) -> pd.DataFrame:
         """Compute every cell and store the outcome.
 
         Chunks that are finished are kept in ``scratch`` until the study is complete, so that a run
         that was killed goes on where it stopped.
+
+        Parameters
+        ----------
+        jobs
+            Worker processes on this machine.
+        scheduler
+            Address of a Dask scheduler whose workers compute instead.
+
+        Raises
+        ------
+        LedgerError
+            A package that some columns need is not installed.
         """
+        import pandas as pd
+
+        if lacking := self.missing_peers():
+            raise LedgerError(f"{self.name}: {', '.join(lacking)} not installed, which it needs")
         cells = self.cells()
-        folder = (
-            scratch or Path("_build") / "studies"
-        ) / f"{self.name}-{hash_text(self.source_hash)}"
+        key = self.code["digest"][:16]
+        folder = (scratch or Path("_build") / "studies") / f"{self.name}-{key}"
         chunks = np.array_split(np.arange(len(cells)), min(_CHUNKS, len(cells)))
-        tasks = (delayed(self._chunk)(folder, chunk, cells) for chunk in chunks)
-        done = Parallel(n_jobs=jobs, return_as="generator")(tasks)
-        bar = tqdm(done, total=len(chunks), desc=self.name, disable=not progress)
-        rows = [row for chunk in bar for row in chunk]
+        kept = {k: _read_chunk(_chunk_path(folder, chunk)) for k, chunk in enumerate(chunks)}
+        missing = [k for k, rows in kept.items() if rows is None]
+        tasks = ((self._chunk, chunks[k], [cells[i] for i in chunks[k]]) for k in missing)
+        made = results(tasks, len(missing), self.name, jobs, progress, scheduler)
+        for k, (rows, inputs) in zip(missing, made, strict=True):
+            kept[k] = {"rows": rows, "inputs": inputs}
+            write_text(_chunk_path(folder, chunks[k]), to_json(kept[k], indent=None))
+        rows = [row for k in range(len(chunks)) for row in kept[k]["rows"]]
+        inputs = sorted({name for k in kept for name in kept[k]["inputs"]})
         table = pd.DataFrame(
             [{**cell, **row} for cell, row in zip(_flat(cells), rows, strict=True)]
         )
@@ -115,13 +151,23 @@ class Study:
             "seed": self.seed,
             "settings": dict(self.settings),
             "cells": len(cells),
-            "source_hash": self.source_hash,
-            "versions": versions(),
+            "code": self.code,
+            "inputs": hash_inputs(self._known(), inputs),
+            "table_sha256": hash_file(self.table_path),
         }
         write_text(self.meta_path, to_json(meta))
         for path in folder.glob("*.json"):
             path.unlink()
         return table
+
+    def _known(self) -> Registry:
+        from .registry import REGISTRY
+
+        return self.registry or REGISTRY
+
+    def missing_peers(self) -> list[str]:
+        """Packages of others that are not installed here: their columns are not compared."""
+        return [name for name in self.peers if find_spec(name) is None]
 
     def meta(self) -> dict[str, Any]:
         """What is recorded with the stored outcome.
@@ -129,20 +175,34 @@ class Study:
         Raises
         ------
         DataFileError
-            Nothing is stored, or it is no JSON.
+            Nothing is stored, or it is no JSON mapping.
         """
+        expected = f"a stored study (`dualarm study {self.name}` computes it)"
         try:
-            return json.loads(self.meta_path.read_text(encoding="utf-8"))
+            found = json.loads(opened(self.meta_path).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
-            expected = f"a stored study (`dualarm study {self.name}` computes it)"
             raise DataFileError(self.meta_path, "file", reason, expected) from None
+        if not isinstance(found, dict) or not {"code", "inputs", "table_sha256"} <= found.keys():
+            raise DataFileError(self.meta_path, "file", type(found).__name__, expected)
+        return found
 
     def status(self) -> str:
-        """``up to date``, ``stale`` or ``missing``."""
-        if not self.meta_path.is_file():
+        """``up to date``, ``missing``, or ``stale: `` with what has changed."""
+        if not self.meta_path.is_file() or not self.table_path.is_file():
             return "missing"
-        return "up to date" if self.meta()["source_hash"] == self.source_hash else "stale"
+        try:
+            meta = self.meta()
+        except DataFileError:
+            return "stale: its record cannot be read"
+        if hash_file(self.table_path) != meta["table_sha256"]:
+            return "stale: the table is not the one that was computed"
+        if meta["code"]["digest"] != self.code["digest"]:
+            return "stale: code, seed or settings changed"
+        now = hash_inputs(self._known(), meta["inputs"])
+        if changed := [name for name, key in now.items() if key != meta["inputs"][name]]:
+            return f"stale: {', '.join(changed)} changed"
+        return "up to date"
 
     def load(self) -> pd.DataFrame:
         """The stored outcome.
@@ -150,14 +210,15 @@ class Study:
         Raises
         ------
         LedgerError
-            A source, an input, the seed or a setting has changed since it was computed.
+            Something it depends on, or the table itself, has changed since it was computed.
         """
+        import pandas as pd
+
         self.meta()
-        if self.status() == "stale":
-            raise LedgerError(
-                f"{self.name}: stale, its sources changed; run `dualarm study {self.name}`"
-            )
-        return pd.read_parquet(self.table_path)
+        status = self.status()
+        if status != "up to date":
+            raise LedgerError(f"{self.name}: {status}; run `dualarm study {self.name}`")
+        return pd.read_parquet(opened(self.table_path))
 
     def spot_check(self, count: int, seed: int) -> list[str]:
         """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store."""
@@ -169,32 +230,45 @@ class Study:
         )
         found = []
         for index in sorted(int(k) for k in drawn):
-            made = json.loads(to_json(self.cell(index, cells[index])))
-            stored = json.loads(to_json(table.iloc[index].to_dict()))
-            for key in made.keys() - set(self.measured):
-                lines = differences({key: stored.get(key)}, {key: made[key]})
+            with recording() as inputs:
+                made = self._plain(self.cell(index, cells[index]))
+            stored = self._plain(table.iloc[index].to_dict())
+            for name in inputs - self.meta()["inputs"].keys():
+                found.append(f"{self.name} cell {index}: opened {name}, which is not recorded")
+            absent = tuple(self.peers[name] for name in self.missing_peers())
+            compared = made.keys() | stored.keys() - cells[index].keys() - set(self.measured)
+            for key in sorted(compared - set(self.measured)):
+                if key.startswith(absent or ("\0",)):
+                    continue
+                lines = differences({key: stored.get(key)}, {key: made.get(key)})
                 found += [f"{self.name} cell {index}: {line}" for line in lines]
         return found
 
-    def _chunk(self, folder: Path, chunk: np.ndarray, cells: list[dict[str, Any]]) -> list[dict]:
-        path = folder / f"{chunk[0]:06d}.json"
-        if path.is_file():
-            return json.loads(path.read_text(encoding="utf-8"))
-        rows = [self.cell(int(index), cells[index]) for index in chunk]
-        write_text(path, to_json(rows))
-        return json.loads(to_json(rows))
+    def _plain(self, row: Mapping[str, Any]) -> dict[str, Any]:
+        plain = json.loads(to_json(dict(row)))
+        for key in self.nested:
+            if isinstance(plain.get(key), str):
+                plain[key] = json.loads(plain[key])
+        return plain
+
+    def _chunk(
+        self, chunk: np.ndarray, cells: list[dict[str, Any]]
+    ) -> tuple[list[dict[str, Any]], list[str]]:
+        with recording() as inputs:
+            rows = [self.cell(int(k), cell) for k, cell in zip(chunk, cells, strict=True)]
+        return json.loads(to_json(rows)), sorted(inputs)
 
 
-def hash_text(text: str) -> str:
-    """First 16 digits of the SHA-256 of a text."""
-    return sha256(text.encode()).hexdigest()[:16]
+def _chunk_path(folder: Path, chunk: np.ndarray) -> Path:
+    return folder / f"{chunk[0]:06d}.json"
 
 
-def _python_files(path: Path) -> list[Path]:
-    found = sorted(path.rglob("*.py")) if path.is_dir() else [path]
-    if not found or not found[0].is_file():
-        raise LedgerError(f"study sources: nothing at {path.name}")
-    return found
+def _read_chunk(path: Path) -> dict[str, Any] | None:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) and {"rows", "inputs"} <= found.keys() else None
 
 
 def _flat(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:

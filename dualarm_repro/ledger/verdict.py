@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 
-from .rules import Evidence, Role, Rule
+from .rules import Evidence, Outcome, Role, Rule
 
 
 class Verdict(StrEnum):
@@ -15,19 +15,41 @@ class Verdict(StrEnum):
     UNDER_ASSUMPTION = "reproduced-under-assumption"
     INCONSISTENT = "inconsistent-in-print"
     NOT_REPRODUCED = "not-reproduced"
+    REGENERATED = "regenerated"
     UNDECIDABLE = "undecidable"
     NOT_ATTEMPTED = "not-attempted"
     ADOPTED = "adopted"
     ADAPTED = "adapted"
 
+    @property
+    def meets_print(self) -> bool:
+        """Whether what is obtained agrees with what is printed."""
+        return self in (
+            Verdict.REPRODUCED,
+            Verdict.UNDER_ASSUMPTION,
+            Verdict.ADOPTED,
+            Verdict.ADAPTED,
+            Verdict.REGENERATED,
+        )
+
 
 #: One sentence per verdict, for legends.
 MEANING = {
-    Verdict.REPRODUCED: "what is obtained agrees with print, and nothing had to be assumed",
-    Verdict.UNDER_ASSUMPTION: "agrees with print once the named assumptions are made",
+    Verdict.REPRODUCED: "print is met, and nothing that is not printed matters",
+    Verdict.UNDER_ASSUMPTION: (
+        "possible: print is met under a declared choice of what is not printed; the share says how "
+        "many of the plausible choices meet it"
+    ),
     Verdict.INCONSISTENT: "the document contradicts itself here; the proof is shown",
-    Verdict.NOT_REPRODUCED: "what is obtained disagrees with print",
-    Verdict.UNDECIDABLE: "a datum that is needed to decide is not printed; this is no pass",
+    Verdict.NOT_REPRODUCED: "not found: no choice within the declared ranges meets print",
+    Verdict.REGENERATED: (
+        "drawn or derived anew, since the source at hand holds no original to compare with; the "
+        "properties it must have are checked"
+    ),
+    Verdict.UNDECIDABLE: (
+        "declared choices disagree and print gives no way to prefer one; a witness is shown for "
+        "each side, and it is no pass"
+    ),
     Verdict.NOT_ATTEMPTED: "no checker is built yet; the reason is given",
     Verdict.ADOPTED: "an input, used exactly as printed",
     Verdict.ADAPTED: "an input, used with the change that is named",
@@ -41,12 +63,13 @@ def decide(
     assumed: bool = False,
     change: str | None = None,
 ) -> Verdict:
-    """Verdict of an item.
+    """Verdict of an item at one choice of its assumptions.
 
-    In this order: a supporting rule that fails gives ``not-reproduced``; contradictions that all
-    hold give ``inconsistent-in-print``; a needed datum that is not printed gives ``undecidable``;
-    inputs are ``adopted``, or ``adapted`` where a change is named; the rest is ``reproduced``,
-    under assumption if the item rests on one.
+    In this order: contradictions that all hold give ``inconsistent-in-print``, whatever else fails;
+    a supporting rule that fails gives ``not-reproduced``, one that stays open ``undecidable``;
+    inputs are ``adopted``, or ``adapted`` where a change is named; what has no original is
+    ``regenerated`` (``not-attempted`` once there is an original that nothing compares with); the
+    rest is ``reproduced``, under assumption if the item rests on one.
 
     Parameters
     ----------
@@ -64,15 +87,21 @@ def decide(
     """
     if not rules:
         raise ValueError("a verdict needs at least one rule")
-    held = {role: [rule.holds(evidence) for rule in rules if rule.role is role] for role in Role}
-    if not all(held[Role.SUPPORTS]):
-        return Verdict.NOT_REPRODUCED
-    if held[Role.CONTRADICTS] and all(held[Role.CONTRADICTS]):
+    found = {role: [rule.outcome(evidence) for rule in rules if rule.role is role] for role in Role}
+
+    def all_hold(role: Role) -> bool:
+        return all(outcome is Outcome.HOLDS for outcome in found[role])
+
+    if found[Role.CONTRADICTS] and all_hold(Role.CONTRADICTS):
         return Verdict.INCONSISTENT
-    if not all(held[Role.DECIDES]):
+    if Outcome.FAILS in found[Role.SUPPORTS]:
+        return Verdict.NOT_REPRODUCED
+    if Outcome.OPEN in found[Role.SUPPORTS]:
         return Verdict.UNDECIDABLE
-    if held[Role.ADOPTS]:
-        if all(held[Role.ADOPTS]):
+    if found[Role.ADOPTS]:
+        if all_hold(Role.ADOPTS):
             return Verdict.ADOPTED
         return Verdict.ADAPTED if change else Verdict.NOT_REPRODUCED
+    if found[Role.REGENERATES]:
+        return Verdict.REGENERATED if all_hold(Role.REGENERATES) else Verdict.NOT_ATTEMPTED
     return Verdict.UNDER_ASSUMPTION if assumed else Verdict.REPRODUCED

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import import_module
+from typing import TYPE_CHECKING
 
 from ..ledger import REGISTRY, Registry
-from ..view.page import Page, present
 
-#: One room per document, in the order of the listings.
-ROOMS = ("xue", "qiu", "patent", "pan")
+if TYPE_CHECKING:
+    from ..view.page import Page
 
 
-@cache
 def load() -> Registry:
-    """The registry with every document read and every checker registered."""
-    REGISTRY.load()
-    for room in ROOMS:
-        import_module(f"{__name__}.{room}")
+    """The registry; a document is read, and its room imported, when something asks for it."""
     return REGISTRY
 
 
@@ -29,4 +23,6 @@ def show(item_id: str) -> Page:
     UnknownNameError
         No such item.
     """
-    return present(load(), item_id)
+    from ..view.page import present
+
+    return present(REGISTRY, item_id)

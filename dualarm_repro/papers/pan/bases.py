@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, NeedsPrinted, Result, Role, Rounds
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, NoOriginal, Result, Role, Rounds
 from ...welding import base_poses
 from .scenario import placed_bases, printed_base_matrix, printed_bases
 
@@ -72,7 +72,7 @@ def matrix(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_teaching",
-    rules=[NeedsPrinted(key="experiment", label="an experiment with taught robots")],
+    rules=[NoOriginal(key="experiment", label="an experiment with taught robots")],
 )
 def teaching(assumed: Assumed) -> Result:
     """A statement about practice."""

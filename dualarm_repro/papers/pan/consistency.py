@@ -113,12 +113,6 @@ CONSISTENCY = Study(
     title="Optimum of every reading of the measure over sampled assumptions, both base transforms",
     cells=cells,
     compute=compute,
-    sources=(
-        "welding",
-        "papers/pan/consistency.py",
-        "papers/pan/optimum.py",
-        "papers/pan/scenario.py",
-    ),
     seed=SEED,
     settings=Declared((*VARIED, "search_box", "singularity_threshold", "torch_exemption")),
 )

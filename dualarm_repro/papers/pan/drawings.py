@@ -14,7 +14,7 @@ from ...arms.robot_file import load_robot_file
 from ...arms.wrist_geometry import wrist_geometry
 from ...datafiles import data_path
 from ...errors import UnsupportedArmError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.arm_drawings import frames_figure
 from ...view.welding_cell import capsule_figure, cell_figure, vectors_figure
 from ...welding import ROBOTS, WELDER, closed_form
@@ -34,7 +34,7 @@ _ROWS = {"translational": 3, "full": 6}
     samples=32,
     rules=[
         Bounded(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
-        NeedsPrinted(key="drawing", label="the drawing"),
+        NoOriginal(key="drawing", label="the drawing"),
     ],
 )
 def welding_cell(assumed: Assumed) -> Result:
@@ -58,7 +58,7 @@ def welding_cell(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="closure", high=1e-9, label="p2 + R r - p closes for both carriers, to [m]"),
-        NeedsPrinted(key="drawing", label="the drawing"),
+        NoOriginal(key="drawing", label="the drawing"),
     ],
 )
 def position_vectors(assumed: Assumed) -> Result:
@@ -85,7 +85,7 @@ def position_vectors(assumed: Assumed) -> Result:
     page="pan/measure",
     rules=[
         Bounded(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
-        NeedsPrinted(key="drawing", label="configuration and scale of the drawing"),
+        NoOriginal(key="drawing", label="configuration and scale of the drawing"),
     ],
 )
 def three_ellipsoids(assumed: Assumed) -> Result:
@@ -124,7 +124,7 @@ def three_ellipsoids(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Is(key="feasible", value=True, label="the stand-in cell can do the job where it is drawn"),
-        NeedsPrinted(key="picture", label="the picture"),
+        NoOriginal(key="picture", label="the picture"),
     ],
 )
 def real_system(assumed: Assumed) -> Result:
@@ -150,7 +150,7 @@ def real_system(assumed: Assumed) -> Result:
         Bounded(
             key="axis_error", high=1e-12, label="each z axis is the one its joint turns about, to"
         ),
-        NeedsPrinted(key="parameters", label="the Denavit-Hartenberg parameters"),
+        NoOriginal(key="parameters", label="the Denavit-Hartenberg parameters"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -179,7 +179,7 @@ def link_frames(assumed: Assumed) -> Result:
     "pan.fig10",
     rules=[
         Bounded(key="reach", low=1.0, high=2.5, label="reach of a robot for 16 kg [m]"),
-        NeedsPrinted(key="geometry", label="the geometry of the links"),
+        NoOriginal(key="geometry", label="the geometry of the links"),
     ],
     samples=16,
 )
@@ -207,7 +207,7 @@ def spatial_model(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Is(key="spherical_wrist", value=True, label="axes 4, 5 and 6 meet in one point"),
-        NeedsPrinted(key="parameters", label="parameters and joint limits of the ER16"),
+        NoOriginal(key="parameters", label="parameters and joint limits of the ER16"),
     ],
 )
 def robot_data(assumed: Assumed) -> Result:
@@ -246,7 +246,7 @@ def robot_data(assumed: Assumed) -> Result:
         Bounded(
             key="tip_error", high=1e-9, label="the torch stays on the seam through the job, to [m]"
         ),
-        NeedsPrinted(key="picture", label="the picture"),
+        NoOriginal(key="picture", label="the picture"),
     ],
 )
 def simulation(assumed: Assumed) -> Result:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.flow_chart import flow_chart
 from ...view.search_plots import best_individual_figure, history_figure, optimisers_figure
 from ...welding import genetic
@@ -81,7 +81,7 @@ def runs_of(assumed: Mapping[str, Any]) -> Runs:
             value=len(_NAMED),
             label="steps named in the text that the loop contains",
         ),
-        NeedsPrinted(key="chart", label="the content of the chart"),
+        NoOriginal(key="chart", label="the content of the chart"),
     ],
 )
 def chart(assumed: Assumed) -> Result:
@@ -110,7 +110,7 @@ def chart(assumed: Assumed) -> Result:
     "pan.fig13",
     rules=[
         Bounded(key="gap", high=1e-3, label="largest gap of the runs to the ground truth"),
-        NeedsPrinted(
+        NoOriginal(
             key="settings", label="the settings of the genetic algorithm and of the problem"
         ),
     ],
@@ -143,7 +143,7 @@ def best_individual(assumed: Assumed) -> Result:
     "pan.fig14",
     rules=[
         Is(key="never_falls", value=True, label="the best fitness never falls"),
-        NeedsPrinted(key="values", label="fitness values and settings"),
+        NoOriginal(key="values", label="fitness values and settings"),
     ],
 )
 def fitness_curves(assumed: Assumed) -> Result:
@@ -173,7 +173,7 @@ def fitness_curves(assumed: Assumed) -> Result:
         Bounded(
             key="largest_last", high=0.5, label="largest mean distance in the last generation [m]"
         ),
-        NeedsPrinted(key="values", label="distances and settings"),
+        NoOriginal(key="values", label="distances and settings"),
     ],
 )
 def distance_curve(assumed: Assumed) -> Result:
@@ -245,7 +245,7 @@ def distance_to_zero(assumed: Assumed) -> Result:
     "pan.claim_ga_stop",
     rules=[
         Is(key="both_end_runs", value=True, label="each of the two rules ends some run"),
-        NeedsPrinted(key="thresholds", label="generation number and smallest change"),
+        NoOriginal(key="thresholds", label="generation number and smallest change"),
     ],
 )
 def two_stop_rules(assumed: Assumed) -> Result:

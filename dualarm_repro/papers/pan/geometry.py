@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import sympy as sp
 
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.pipe_seam import pipes_figure, seam_figure
 from ...welding import WELDER
 from .coordination import at_display
@@ -34,7 +34,7 @@ def saddle_curve(assumed: Assumed) -> Result:
     model = SeamModel.of(assumed)
     theta, ra, rb = sp.symbols("theta R_a R_b", positive=True)
     names = {"theta": theta, "R_a": ra, "R_b": rb}
-    text = REGISTRY.item("pan.eq17").printed["formula"]
+    text = REGISTRY.printed("pan.eq17")["formula"]
     x, y, z = (sp.sympify(part.split("=")[1], locals=names) for part in text.split(", "))
     on_pipes = sp.simplify(x**2 + y**2 - rb**2) == 0 and sp.simplify(y**2 + z**2 - ra**2) == 0
     seam = model.seam
@@ -77,7 +77,7 @@ def theta_range(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
-        NeedsPrinted(key="radii", label="the radii and lengths of the pipes"),
+        NoOriginal(key="radii", label="the radii and lengths of the pipes"),
     ],
 )
 def workpiece(assumed: Assumed) -> Result:
@@ -105,7 +105,7 @@ def workpiece(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
-        NeedsPrinted(key="radii", label="the radii"),
+        NoOriginal(key="radii", label="the radii"),
     ],
 )
 def curve(assumed: Assumed) -> Result:
@@ -129,7 +129,7 @@ def curve(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
-        NeedsPrinted(key="posture", label="the rule of the flat position"),
+        NoOriginal(key="posture", label="the rule of the flat position"),
     ],
 )
 def flat_points(assumed: Assumed) -> Result:
@@ -158,7 +158,7 @@ def flat_points(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
-        NeedsPrinted(key="position", label="the initial position used"),
+        NoOriginal(key="position", label="the initial position used"),
     ],
 )
 def points_in_base(assumed: Assumed) -> Result:

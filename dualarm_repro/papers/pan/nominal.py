@@ -12,22 +12,17 @@ from ...ledger import REGISTRY
 
 def nominal_values() -> dict[str, Any]:
     """Every assumption of the document with its declared value."""
-    entries = REGISTRY.paper("pan").assumptions
-    return {key: entry.value for key, entry in entries.items()}
+    return REGISTRY.nominal("pan")
 
 
 def plausible(key: str, share: float) -> Any:
     """The plausible value of an assumption at a share in [0, 1) of its range or choices."""
-    entry = REGISTRY.paper("pan").assumptions[key]
-    if entry.range is not None:
-        low, high = entry.range
-        return float(low + share * (high - low))
-    return entry.choices[int(share * len(entry.choices))]
+    return REGISTRY.declared(f"pan.{key}", "range", "choices").at(share)
 
 
 def alternatives(key: str, count: int) -> list[Any]:
     """``count`` values over the range of an assumption, or all of its choices."""
-    entry = REGISTRY.paper("pan").assumptions[key]
+    entry = REGISTRY.declared(f"pan.{key}", "range", "choices")
     if entry.range is not None:
         return [float(value) for value in np.linspace(*entry.range, count)]
     return list(entry.choices)
@@ -43,7 +38,7 @@ class Declared(Mapping[str, Any]):
         self._keys = keys
 
     def __getitem__(self, key: str) -> Any:
-        entry = REGISTRY.paper("pan").assumptions[key]
+        entry = REGISTRY.declared(f"pan.{key}", "value", "range", "choices")
         return {"value": entry.value, "range": entry.range, "choices": entry.choices}
 
     def __iter__(self) -> Iterator[str]:

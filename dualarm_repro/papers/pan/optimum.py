@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
+from ...tracking import memo
 from ...welding import Jobs, Measures, Optimum
 from ...welding.grid_search import best_cells, grid_points, refined
 from .scenario import Job, Measure, printed_optimum
@@ -16,7 +15,7 @@ _MIRROR = np.array([-1.0, 1.0, 1.0])
 _SAME = 1e-6  # relative difference of the fitness of two mirror images
 
 
-@cache
+@memo()
 def optimum(job: Job, measure: Measure, box: Box) -> Optimum:
     """Best position in the box; of two mirror images the one nearer to the printed point.
 
@@ -42,7 +41,7 @@ def nearer_image(found: Optimum, mirrored_fitness: float) -> Optimum:
     return found
 
 
-@cache
+@memo()
 def solved(job: Job, position: tuple[float, float, float]) -> Jobs:
     """Joint paths and constraints of the job at one position."""
     return job.placement().jobs([position])

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...tracking import memo
 from ...view.seam_curves import measures_figure
 from ...welding import WELDER, Cell, Jobs, Measures, closed_form
 from ..wording import point
@@ -39,7 +40,7 @@ def poor_job(
     return job.cell(), solved(job, tuple(centre)), centre, measures_at(job, measure, centre)
 
 
-@cache
+@memo()
 def largest_measure(arm: str) -> float:
     """Largest manipulability of the arm over 100 000 random configurations [m^3]."""
     model = stand_in(arm)
@@ -57,7 +58,7 @@ def _poor_figure(item: str, letter: str, what: str, describe: Callable[..., str]
             Bounded(
                 key="lower_than_optimum", high=0.9, label=f"mean of {what}, relative to the optimum"
             ),
-            NeedsPrinted(key="position", label="the position and the values of the curves"),
+            NoOriginal(key="position", label="the position and the values of the curves"),
         ],
     )
     def curves(assumed: Assumed) -> Result:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from ...tracking import memo
 from ...view.scene3d import Scene3D
 from ...view.welding_scene import job_scene
 from ...welding import WELDER, Cell, Jobs, Measures, Optimum, Status
@@ -52,7 +52,7 @@ def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scen
     return job_scene(title, cell, jobs.q[0], centre, jobs.w[0], FULL_SCALE)
 
 
-@cache
+@memo()
 def extreme_position(job: Job, measure: Measure, box: Box, rule: str) -> Optimum:
     """Feasible position of the lowest welder or of the largest variation.
 

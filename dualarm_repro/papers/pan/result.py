@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.landscape import readings_figure, slices_figure
 from ...view.seam_curves import joints_figure, measures_figure
 from ...welding import ROBOTS, Placement, Separation, Status
@@ -129,8 +129,8 @@ def constraints(assumed: Assumed) -> Result:
             low=1,
             label="readings with an optimum within 0.15 m of the printed point in some set",
         ),
-        NeedsPrinted(key="robot", label="parameters and limits of the robot"),
-        NeedsPrinted(key="workpiece", label="workpiece, grasp, torch and posture"),
+        NoOriginal(key="robot", label="parameters and limits of the robot"),
+        NoOriginal(key="workpiece", label="workpiece, grasp, torch and posture"),
     ],
 )
 def printed_point(assumed: Assumed) -> Result:
@@ -192,7 +192,7 @@ def printed_point(assumed: Assumed) -> Result:
         Bounded(
             key="smallest", low=0.01, label="smallest manipulability of a robot on the seam [m^3]"
         ),
-        NeedsPrinted(key="values", label="values of the curves"),
+        NoOriginal(key="values", label="values of the curves"),
     ],
 )
 def optimal_curves(assumed: Assumed) -> Result:
@@ -223,7 +223,7 @@ def optimal_curves(assumed: Assumed) -> Result:
             key="largest_step", high=0.6, label="largest step of a joint between seam points [rad]"
         ),
         Bounded(key="joint_margin", low=1e-9, label="smallest margin to a joint limit [rad]"),
-        NeedsPrinted(key="values", label="values of the curves"),
+        NoOriginal(key="values", label="values of the curves"),
     ],
 )
 def joint_curves(assumed: Assumed) -> Result:

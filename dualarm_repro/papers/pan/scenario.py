@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from functools import cache
 from math import radians
 from typing import Any, Self
 
@@ -15,6 +14,7 @@ from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
 from ...errors import UnknownNameError
 from ...ledger import REGISTRY
+from ...tracking import memo
 from ...welding import (
     Cell,
     Objective,
@@ -39,18 +39,18 @@ _ORIENTATIONS = ("identity", "facing_workpiece")
 
 def printed_optimum() -> np.ndarray:
     """C as printed (3,) [m]."""
-    return np.array(REGISTRY.item("pan.claim_optimum").printed["C"], dtype=float)
+    return np.array(REGISTRY.printed("pan.claim_optimum")["C"], dtype=float)
 
 
 def printed_bases() -> np.ndarray:
     """Positions of the three bases as printed (3, 3) [m]."""
-    printed = REGISTRY.item("pan.claim_bases").printed
+    printed = REGISTRY.printed("pan.claim_bases")
     return np.array([printed[name] for name in _BASES], dtype=float)
 
 
 def printed_base_matrix() -> np.ndarray:
     """The one matrix printed for base 1 (4, 4)."""
-    return np.array(REGISTRY.item("pan.eq_base").printed["matrix"], dtype=float)
+    return np.array(REGISTRY.printed("pan.eq_base")["matrix"], dtype=float)
 
 
 class FromAssumptions:
@@ -166,7 +166,7 @@ class Genetic(FromAssumptions):
         )
 
 
-@cache
+@memo()
 def stand_in(name: str, shoulder_height: float | None = None, scale: float = 1.0) -> Arm:
     """One of the stand-in arms, its shoulder moved and its capsules scaled if asked for."""
     robot = load_robot_file(data_path("robots", f"{name}.yaml"))
@@ -196,7 +196,7 @@ def placed_bases(reading: str, orientation: str) -> np.ndarray:
     return poses
 
 
-@cache
+@memo()
 def _cell(job: Job) -> Cell:
     arm = stand_in(job.arm, job.shoulder_height, job.link_radius_scale)
     scale = job.link_radius_scale

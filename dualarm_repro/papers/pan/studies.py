@@ -22,7 +22,6 @@ BUDGET = 4750  # evaluations
 TRUTH = "ground truth"
 TRUTH_SPACING = 0.05  # [m]
 TRUTH_STARTS = 8
-_SOURCES = ("welding", "papers/pan/studies.py", "papers/pan/scenario.py")
 _JOB = tuple(field.name for field in fields(Job))
 _MEASURE = tuple(field.name for field in fields(Measure))
 _GENETIC = tuple(field.name for field in fields(Genetic))
@@ -87,11 +86,11 @@ def _evolve(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
 
 def _sensitivity_cells() -> list[dict[str, Any]]:
     """The declared assumptions, then one of them changed at a time."""
-    entries = REGISTRY.paper("pan").assumptions
+    entries = {key: REGISTRY.declared(f"pan.{key}", "value") for key in (*_JOB, *_MEASURE)}
     changes = [
         {"assumption": key, "value": str(value)}
         for key in (*_JOB, *_MEASURE)
-        if entries[key].range is not None or len(entries[key].choices or []) > 1
+        if entries[key].varies
         for value in alternatives(key, 5)
         if value != entries[key].value
     ]
@@ -116,7 +115,6 @@ OPTIMISERS = Study(
     title="The genetic algorithm and other optimisers on the declared problem, ten seeds each",
     cells=_optimiser_cells,
     compute=_optimise,
-    sources=_SOURCES,
     seed=SEED,
     settings=Declared((*_JOB, *_MEASURE, "search_box")),
     measured=("seconds",),
@@ -126,7 +124,6 @@ EVOLUTION = Study(
     title="Histories of the genetic algorithm, ten seeds for each variant",
     cells=_evolution_cells,
     compute=_evolve,
-    sources=_SOURCES,
     seed=SEED,
     settings=Declared((*_JOB, *_MEASURE, *_GENETIC, "search_box")),
 )
@@ -135,7 +132,6 @@ SENSITIVITY = Study(
     title="The optimum when one assumption at a time is changed",
     cells=_sensitivity_cells,
     compute=_change_one,
-    sources=(*_SOURCES, "papers/pan/optimum.py"),
     seed=SEED,
     settings=Declared((*_JOB, *_MEASURE, "search_box")),
 )

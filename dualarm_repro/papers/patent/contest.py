@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -19,6 +19,7 @@ from ...control.problem import Problem
 from ...control.recorded import recorded_problems
 from ...control.settings import Settings
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
+from ...tracking import memo
 from ...view.control_figures import contest_figure, convergence_figure
 from .robots import SEED
 from .scenario import CONTROL_STEP, Frozen, frozen, network_of, run
@@ -262,7 +263,7 @@ def accurate(assumed: Assumed) -> Result:
     )
 
 
-@cache
+@memo()
 def recorded(every: int) -> list[Problem]:
     """Each ``every``-th problem of the frozen crossing at 1 kHz."""
     scenario, settings = frozen("crossing"), Settings()

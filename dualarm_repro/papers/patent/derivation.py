@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 import sympy as sp
@@ -15,7 +15,8 @@ from ...control.problem import Problem
 from ...control.recorded import recorded_problems
 from ...control.settings import Settings
 from ...control.solvers import solve
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...tracking import memo
 from .robots import SEED
 from .scenario import COARSE_STEP, frozen, network_of, run
 
@@ -23,7 +24,7 @@ checks = partial(REGISTRY.checks, page="patent/network")
 N, M, H = 3, 2, 4  # unknowns, equalities and inequalities of the symbolic problem
 
 
-@cache
+@memo()
 def symbols() -> dict[str, sp.Matrix]:
     """phi, lambda, J, dr/dt, C and d of a small problem, and a penalty P left open."""
     return {
@@ -36,7 +37,7 @@ def symbols() -> dict[str, sp.Matrix]:
     }
 
 
-@cache
+@memo()
 def lagrangian() -> sp.Expr:
     """L = 1/2 phi^T phi + sum_i P(c_i phi - d_i) + lambda^T (J phi - dr/dt)."""
     s, P = symbols(), sp.Function("P")
@@ -47,14 +48,14 @@ def lagrangian() -> sp.Expr:
     )
 
 
-@cache
+@memo()
 def gradients() -> sp.Matrix:
     """dL/dphi over dL/dlambda."""
     s = symbols()
     return sp.Matrix([sp.diff(lagrangian(), v) for v in [*s["phi"], *s["multiplier"]]])
 
 
-@cache
+@memo()
 def matrix_equation() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
     """E = [I J^T; J 0], y = [phi; lambda], e = [-C^T P'; dr/dt]."""
     s, P = symbols(), sp.Function("P")
@@ -196,7 +197,7 @@ def error_function(assumed: Assumed) -> Result:
             high=1e-5,
             label="the state matrix is the derivative of the error by y",
         ),
-        NeedsPrinted(key="formula", label="the blocks"),
+        NoOriginal(key="formula", label="the blocks"),
     ],
 )
 def matrix_blocks(assumed: Assumed) -> Result:
@@ -227,7 +228,7 @@ def matrix_blocks(assumed: Assumed) -> Result:
     )
 
 
-@cache
+@memo()
 def sample_problem() -> Problem:
     """The problem of the frozen task with the largest multiplier of an avoidance row."""
     scenario, settings = frozen("crossing"), Settings()

@@ -6,7 +6,7 @@ from functools import partial
 
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from ...view.diagrams import block_diagram, flow_chart
 from .flow import STEPS, place
 
@@ -61,12 +61,12 @@ def flow_chart_figure(assumed: Assumed) -> Result:
     "patent.fig03",
     rules=[
         Is(key="steps_run", value=len(STEPS), label="steps of Fig. 1 that the program carries out"),
-        NeedsPrinted(key="drawing", label="the drawing"),
+        NoOriginal(key="drawing", label="the drawing"),
     ],
 )
 def device(assumed: Assumed) -> Result:
     """Figure 3: a processor that runs a program kept in a memory."""
-    numbers = REGISTRY.item("patent.fig03").printed
+    numbers = REGISTRY.printed("patent.fig03")
     runs = sum(callable(step.code) for step in STEPS)
     return Result(
         obtained={"steps_run": runs},

@@ -16,7 +16,7 @@ from ...control.neural.network import network_rate, state_rate
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.optimality import optimality
 from ...control.settings import ROWS, Settings
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.control_figures import decay_figure
 from .derivation import sample_problem, state_with_error
 from .robots import SEED
@@ -36,7 +36,7 @@ START = 0.1  # size of the error at the start of a decay
             high=1e-3,
             label="error of the network against the closed solution, share of start",
         ),
-        NeedsPrinted(key="formula", label="the decay of the error"),
+        NoOriginal(key="formula", label="the decay of the error"),
     ],
 )
 def error_decay(assumed: Assumed) -> Result:
@@ -88,7 +88,7 @@ def error_decay(assumed: Assumed) -> Result:
             high=1e-3,
             label="along the motion, d xi/dt + gamma e^t Psi(xi), share of the gain",
         ),
-        NeedsPrinted(key="formula", label="the state equation"),
+        NoOriginal(key="formula", label="the state equation"),
     ],
 )
 def state_equation(assumed: Assumed) -> Result:

@@ -10,7 +10,7 @@ import pandas as pd
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.penalty import PENALTIES, penalty
 from ...control.solvers import solve
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...view.control_figures import penalty_figure
 from .derivation import rest_point, sample_problem
 from .scenario import network_of
@@ -30,7 +30,7 @@ STIFFER = (1.0, 10.0, 100.0)
             key="second_derivative", high=1e-5, label="P'' is the derivative of P', relative to"
         ),
         Bounded(key="monotone", low=0.0, label="P grows with the violation: smallest P'"),
-        NeedsPrinted(key="formula", label="the penalty function"),
+        NoOriginal(key="formula", label="the penalty function"),
     ],
 )
 def penalty_function(assumed: Assumed) -> Result:
@@ -81,7 +81,7 @@ def penalty_function(assumed: Assumed) -> Result:
             high=0.1,
             label="P' at the minimiser is the exact multiplier, to a share of",
         ),
-        NeedsPrinted(key="formula", label="the terms of the penalty"),
+        NoOriginal(key="formula", label="the terms of the penalty"),
     ],
 )
 def stacked_inequalities(assumed: Assumed) -> Result:
@@ -122,7 +122,7 @@ def stacked_inequalities(assumed: Assumed) -> Result:
             label="a penalty stiffer by 10 is nearer to the exact minimiser by",
         ),
         Bounded(key="equality", high=1e-8, label="the equality is kept exactly, to [m/s]"),
-        NeedsPrinted(key="formula", label="the penalised problem"),
+        NoOriginal(key="formula", label="the penalised problem"),
     ],
 )
 def penalised_problem(assumed: Assumed) -> Result:

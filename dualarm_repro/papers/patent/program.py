@@ -15,7 +15,7 @@ from ...control.settings import Settings
 from ...control.simulate import pseudo_inverse
 from ...control.solvers import SOLVERS, solve
 from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...scene.clearance import distances
 from .robots import SEED, mesh_excess
 from .scenario import COARSE_STEP, Frozen, crossing, frozen, run, settings_of
@@ -156,7 +156,7 @@ def least_velocity(assumed: Assumed) -> Result:
             label="with bounds, largest excess over an angle limit [rad]",
         ),
         Bounded(key="speed_excess", high=1e-9, label="largest excess over a speed limit [rad/s]"),
-        NeedsPrinted(key="formula", label="the inequality"),
+        NoOriginal(key="formula", label="the inequality"),
     ],
 )
 def joint_limits(assumed: Assumed) -> Result:
@@ -195,7 +195,7 @@ def joint_limits(assumed: Assumed) -> Result:
             high=1e-4,
             label="moving link meshes stick out of the capsules by [m]",
         ),
-        NeedsPrinted(key="formula", label="the inequality and the law of beta"),
+        NoOriginal(key="formula", label="the inequality and the law of beta"),
     ],
 )
 def avoidance_rows(assumed: Assumed) -> Result:
@@ -238,7 +238,7 @@ def avoidance_rows(assumed: Assumed) -> Result:
             value=True,
             label="an impossible task is reported, not answered",
         ),
-        NeedsPrinted(key="formula", label="the assembled problem"),
+        NoOriginal(key="formula", label="the assembled problem"),
     ],
     samples=6,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import product
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from example_robot_data import getModelPath
 
 from ...arms import Arm, load_arm
 from ...control.link_capsules import sticking_out, with_capsules
+from ...tracking import memo
 
 #: Name in the assumption ``robot`` to the URDF whose meshes the capsules have to contain.
 URDFS = {
@@ -27,7 +27,7 @@ SEED = 20240057
 _FINGERS = ("panda_leftfinger_0", "panda_rightfinger_0")
 
 
-@cache
+@memo()
 def redundant_arm(robot: str, capsules: str = "widened") -> Arm:
     """One arm of seven joints with its capsules.
 
@@ -51,7 +51,7 @@ def redundant_arm(robot: str, capsules: str = "widened") -> Arm:
     )
 
 
-@cache
+@memo()
 def mesh_excess(robot: str, capsules: str = "widened") -> dict[str, float]:
     """How far the vertices of the moving links' meshes stick out of the capsules of the arm [m].
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from ...control.settings import Settings
 from ...control.simulate import simulate
 from ...control.system import ArmSystem
 from ...datafiles import data_path
+from ...tracking import memo
 from .tasks import Task, arm_pair
 
 #: Rate of the controller, 1 kHz [s].
@@ -42,7 +42,7 @@ class Frozen:
         return self.circles.duration
 
 
-@cache
+@memo()
 def frozen(name: str, **changes: Any) -> Frozen:
     """Scenario ``data/scenes/patent_<name>.yaml``, with some of its values changed.
 
@@ -72,7 +72,7 @@ def frozen(name: str, **changes: Any) -> Frozen:
     return Frozen(file.title, system, task.circles(system, **timing), task.q0)
 
 
-@cache
+@memo()
 def scenario_file(name: str) -> Scenario:
     """The checked content of a scenario file."""
     return load_scenario(data_path("scenes", f"patent_{name}.yaml"))

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...planning.control_points import end_effector
 from ...planning.hull_obstacle import circles_on
 from ...scene import ConvexHull, densify, distances
@@ -28,7 +28,7 @@ checks = partial(REGISTRY.checks, page="qiu/master_slave")
     samples=32,
     rules=[
         Is(key="joined", value=True, label="the slave's halves meet"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
 )
 def slave_joints(assumed: Assumed) -> Result:
@@ -64,7 +64,7 @@ def slave_joints(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Bounded(key="end_error", high=1e-3, label="distance of the ends to start and goal [m]"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
 )
 def slave_coordinates(assumed: Assumed) -> Result:
@@ -99,7 +99,7 @@ def slave_coordinates(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Is(key="joined", value=True, label="both arms have a path"),
-        NeedsPrinted(key="time_scale", label="a common time scale"),
+        NoOriginal(key="time_scale", label="a common time scale"),
     ],
 )
 def both_arms_together(assumed: Assumed) -> Result:

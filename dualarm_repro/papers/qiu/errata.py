@@ -57,7 +57,7 @@ def start_tip() -> Proof:
         ("master", "claim_start", "tcp"),
         ("slave", "claim_slave_task", "start"),
     ):
-        printed = np.array([float(x) for x in REGISTRY.item(f"qiu.{item}").printed[key]])
+        printed = np.array([float(x) for x in REGISTRY.printed(f"qiu.{item}")[key]])
         gaps[name] = (end_effector(placed(name), START) - printed).tolist()
     largest = max(float(np.linalg.norm(gap)) for gap in gaps.values())
     return Proof(
@@ -132,7 +132,7 @@ def symmetry_axis() -> Proof:
 @REGISTRY.proves("qiu.base_yaw")
 def base_yaw() -> Proof:
     """Distance of the tip at zero joints from the printed tip for the four quarter turns."""
-    printed = np.array([float(x) for x in REGISTRY.item("qiu.claim_start").printed["tcp"]])
+    printed = np.array([float(x) for x in REGISTRY.printed("qiu.claim_start")["tcp"]])
     gaps = {
         yaw: float(np.linalg.norm(end_effector(placed("master", yaw=yaw), START) - printed))
         for yaw in (0.0, 90.0, 180.0, 270.0)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from ...planning.contact_check import ContactCheck, contact_check
 from ...planning.time_map import along_path, replay, time_map
 from ...scene import Scene
+from ...tracking import memo
 from .readings import DualPlan
 from .scenario import placed, truth_scene
 
 
-@lru_cache(maxsize=8)
+@memo(8)
 def dual_scene(radius_scale: float = 1.0) -> Scene:
     """Both arms, spheres and table; links thicker by a factor."""
     return truth_scene([placed(n, radius_scale=radius_scale) for n in ("master", "slave")])

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...planning.bidirectional import repulsive_torque, surroundings_at
 from ...planning.bidirectional_settings import Threshold
 from ...planning.joint_attraction import conic_force, conic_potential
@@ -52,7 +52,7 @@ _LOST = "the formula"
     "qiu.fig04",
     rules=[
         Bounded(key="balance", high=1e-6, label="sum of the forces against the slope, relative"),
-        NeedsPrinted(key="drawing", label="the drawing"),
+        NoOriginal(key="drawing", label="the drawing"),
     ],
 )
 def principle(assumed: Assumed) -> Result:
@@ -97,7 +97,7 @@ def principle(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Is(key="joints", to="joints", label="joints whose origins are the control points"),
-        NeedsPrinted(key="positions", label="where the origins of the joints are"),
+        NoOriginal(key="positions", label="where the origins of the joints are"),
     ],
 )
 def control_points(assumed: Assumed) -> Result:
@@ -169,7 +169,7 @@ def resultant(assumed: Assumed) -> Result:
     rules=[
         Bounded(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
         Bounded(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
-        NeedsPrinted(key="formula", label=_LOST),
+        NoOriginal(key="formula", label=_LOST),
     ],
 )
 def attractive_potential(assumed: Assumed) -> Result:
@@ -204,7 +204,7 @@ def attractive_potential(assumed: Assumed) -> Result:
     rules=[
         Bounded(key="difference", high=1e-6, label="force against finite differences, relative"),
         Bounded(key="largest_over_bound", high=1.0 + 1e-12, label="largest force over its bound"),
-        NeedsPrinted(key="formula", label=_LOST),
+        NoOriginal(key="formula", label=_LOST),
     ],
 )
 def attractive_force(assumed: Assumed) -> Result:
@@ -233,7 +233,7 @@ def attractive_force(assumed: Assumed) -> Result:
     rules=[
         Bounded(key="at_range", high=1e-12, label="value at the end of the range"),
         Is(key="grows", value=True, label="it grows without bound towards the obstacle"),
-        NeedsPrinted(key="formula", label=_LOST),
+        NoOriginal(key="formula", label=_LOST),
     ],
 )
 def repulsive_potential(assumed: Assumed) -> Result:
@@ -265,7 +265,7 @@ def repulsive_potential(assumed: Assumed) -> Result:
             key="direction", high=1e-9, label="printed direction against the slope of the distance"
         ),
         Bounded(key="slope", high=1e-5, label="force against finite differences of (7), relative"),
-        NeedsPrinted(key="factor", label="the factor in front of the gradient"),
+        NoOriginal(key="factor", label="the factor in front of the gradient"),
     ],
 )
 def repulsive_force(assumed: Assumed) -> Result:
@@ -308,7 +308,7 @@ def repulsive_force(assumed: Assumed) -> Result:
         Bounded(
             key="difference", high=1e-5, label="joint forces against finite differences, relative"
         ),
-        NeedsPrinted(key="formula", label=_LOST),
+        NoOriginal(key="formula", label=_LOST),
     ],
 )
 def joint_forces(assumed: Assumed) -> Result:

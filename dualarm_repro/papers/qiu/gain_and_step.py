@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...planning.adaptive_step import step_length
 from ...planning.bidirectional_settings import FlipRule, GainRule, StepRule
 from ...planning.settings import code
@@ -25,7 +25,7 @@ _LOST = "the formula"
             key="outside_band", high=1e-15, label="distance of lambda from one outside its band"
         ),
         Bounded(key="at_flip", high=0.999, label="lambda where the resultant flipped is below one"),
-        NeedsPrinted(key="lambda", label="the formula of lambda"),
+        NoOriginal(key="lambda", label="the formula of lambda"),
     ],
     samples=32,
 )
@@ -67,7 +67,7 @@ def variable_gain(assumed: Assumed) -> Result:
         Bounded(
             key="near_over_far", high=0.999, label="step beside an obstacle over step far away"
         ),
-        NeedsPrinted(key="formula", label=_LOST),
+        NoOriginal(key="formula", label=_LOST),
     ],
     samples=32,
 )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...planning.hull_obstacle import circles_on, hull_track, point_hull
 from ...scene import ConvexHull, PlacedArm
 from ...scene.points import point_capsule
@@ -34,7 +34,7 @@ _PLANE, _FACE, _CAPSULE = 6, 60, 30
     samples=32,
     rules=[
         Bounded(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
-        NeedsPrinted(key="radii", label="the radii of the circles"),
+        NoOriginal(key="radii", label="the radii of the circles"),
     ],
 )
 def hull_of_the_posture(assumed: Assumed) -> Result:

@@ -11,7 +11,7 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...arms.dh import joint_symbols
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result, Rounds
 from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
@@ -26,7 +26,7 @@ _INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
     "qiu.fig01",
     rules=[
         Bounded(key="difference", high=1e-12, label="lengths drawn differ from the arm's by [m]"),
-        NeedsPrinted(key="dimensions", label="the dimensions inside the drawing"),
+        NoOriginal(key="dimensions", label="the dimensions inside the drawing"),
     ],
 )
 def dimensions(assumed: Assumed) -> Result:
@@ -79,7 +79,7 @@ def dimensions(assumed: Assumed) -> Result:
             high=1e-12,
             label="both conventions put the flange alike to [m]",
         ),
-        NeedsPrinted(key="frames", label="the link frames of the sketch"),
+        NoOriginal(key="frames", label="the link frames of the sketch"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -116,7 +116,7 @@ def link_frames(assumed: Assumed) -> Result:
             high=1e-12,
             label="largest difference of the two models' flanges [m]",
         ),
-        NeedsPrinted(key="rows", label="the rows of the table"),
+        NoOriginal(key="rows", label="the rows of the table"),
     ],
 )
 def table_1(assumed: Assumed) -> Result:
@@ -159,7 +159,7 @@ def table_1(assumed: Assumed) -> Result:
     rules=[
         Is(key="product_is_arm", value=True, label="link transforms multiply to the arm's T(q)"),
         Is(key="rotations_orthonormal", value=True, label="every link transform is a rigid motion"),
-        NeedsPrinted(key="formula", label="the link transform"),
+        NoOriginal(key="formula", label="the link transform"),
     ],
 )
 def link_transform(assumed: Assumed) -> Result:
@@ -190,7 +190,7 @@ def link_transform(assumed: Assumed) -> Result:
     rules=[
         Bounded(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
         Bounded(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),
-        NeedsPrinted(key="formula", label="the product of transforms"),
+        NoOriginal(key="formula", label="the product of transforms"),
     ],
 )
 def end_effector(assumed: Assumed) -> Result:
@@ -228,7 +228,7 @@ def end_effector(assumed: Assumed) -> Result:
 )
 def base_translation(assumed: Assumed) -> Result:
     """The translation that carries the printed master base to the printed slave base."""
-    printed = REGISTRY.item("qiu.claim_bases").printed
+    printed = REGISTRY.printed("qiu.claim_bases")
     master, slave = (np.array([float(x) for x in printed[name]]) for name in ("master", "slave"))
     shift = pin.SE3(np.eye(3), np.array([assumed["base_translation"], 0.0, 0.0]))
     carried = shift.act(master)
@@ -251,7 +251,7 @@ def base_translation(assumed: Assumed) -> Result:
     rules=[
         Rounds(key="base_master", to="base_master", label="base of the master [m]", **_INPUT),
         Rounds(key="base_slave", to="base_slave", label="base of the slave [m]", **_INPUT),
-        NeedsPrinted(key="orientation", label="the orientation of the bases"),
+        NoOriginal(key="orientation", label="the orientation of the bases"),
     ],
 )
 def both_arms(assumed: Assumed) -> Result:

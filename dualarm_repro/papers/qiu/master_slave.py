@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
 from ...planning.bidirectional_compiled import plan_bidirectional_compiled
 from ...planning.splice import smoothed
 from ...planning.time_map import hull_tracks, replay, shares, time_map
@@ -51,7 +51,7 @@ def dual_readings(assumed: Assumed) -> dict[str, DualPlan]:
             value=True,
             label="the slave is searched after the master's path",
         ),
-        NeedsPrinted(key="drawing", label="the flow chart"),
+        NoOriginal(key="drawing", label="the flow chart"),
     ],
 )
 def order_of_work(assumed: Assumed) -> Result:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
 from ...planning.failure import classify
 from ...planning.search_plan import SearchPlan
 from ...view.scene3d import Scene3D
@@ -185,7 +185,7 @@ def _gain_runs(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
     rules=[
         Bounded(key="flips_constant", low=5, label="flips of the resultant with constant gain"),
         Bounded(key="flips_ratio", high=0.5, label="flips with variable gain over those without"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
 )
 def height_with_both_gains(assumed: Assumed) -> Result:
@@ -223,7 +223,7 @@ def height_with_both_gains(assumed: Assumed) -> Result:
     "qiu.fig10",
     rules=[
         Is(key="reached", value=False, label="the one-way search does not arrive"),
-        NeedsPrinted(key="path", label="the path"),
+        NoOriginal(key="path", label="the path"),
     ],
     samples=32,
 )
@@ -283,7 +283,7 @@ def _scene(plan: SearchPlan) -> Scene3D:
     "qiu.fig11",
     rules=[
         Bounded(key="flips", low=5, label="flips of the resultant on the way"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
     samples=32,
 )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from ...planning.splice import smoothed
 from ...planning.time_map import hull_tracks
 from ...planning.tip_goal import nearest_posture
 from ...scene import PlacedArm
+from ...tracking import memo
 from .scenario import (
     ALPHA0,
     BRANCHES,
@@ -158,7 +158,7 @@ def master_posture(values: Mapping[str, Any]) -> np.ndarray:
     return branch_posture(arm, inside, branch, wrist) if found is None else found
 
 
-@cache
+@memo()
 def _best_effort(branch: str, radius: float, wrist: tuple[float, ...]) -> np.ndarray:
     arm = placed("master")
     near = branch_posture(
@@ -170,7 +170,7 @@ def _best_effort(branch: str, radius: float, wrist: tuple[float, ...]) -> np.nda
 def _memo(plan: Callable[..., Any]) -> Callable[..., Any]:
     """Keep the outcomes of ``plan(values, names, ...)`` by the values of the names."""
 
-    @lru_cache(maxsize=512)
+    @memo(512)
     def kept(text: str, *rest: Any) -> Any:
         return plan(json.loads(text), *rest)
 
@@ -272,7 +272,7 @@ def dual_plan(values: Mapping[str, Any]) -> DualPlan:
     return _dual_plan(values, SLAVE)
 
 
-@cache
+@memo()
 def balance_ratio(branch: str = "front_shallow") -> float:
     """eta_0/zeta at which repulsion of the flange at the printed trap equals the largest
     attraction.

@@ -5,7 +5,6 @@ postures.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 
 import numpy as np
 import pinocchio as pin
@@ -15,6 +14,7 @@ from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
 from ...planning.obstacles import Obstacles, obstacles_of
 from ...scene import HalfSpace, PlacedArm, Scene, Sphere
+from ...tracking import memo
 
 ROBOT = "irb120"
 #: Section 4.1: bases, spheres, goal of the master, gains and lengths.
@@ -59,7 +59,7 @@ def lengths() -> dict[str, float]:
     }
 
 
-@cache
+@memo()
 def arm_in_use(tool: float = 0.0, radius_scale: float = 1.0) -> Arm:
     """The arm, its flange moved out by ``tool`` [m] and its links thicker by a factor."""
     if tool == 0.0 and radius_scale == 1.0:
@@ -101,7 +101,7 @@ def spheres() -> dict[str, Sphere]:
     return {f"sphere_{k}": Sphere(centre, RADIUS) for k, centre in enumerate(CENTRES, 1)}
 
 
-@cache
+@memo()
 def repelling(floor: bool = False, with_spheres: bool = True) -> Obstacles:
     """What repels the arms: the spheres and, if assumed, the floor."""
     shapes: dict[str, Sphere | HalfSpace] = dict(spheres()) if with_spheres else {}

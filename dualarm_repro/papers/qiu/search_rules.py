@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from ...planning.bidirectional import repulsive_torque, surroundings_at
 from ...planning.joint_attraction import conic_force
 from ...planning.search_plan import SearchPlan
@@ -30,7 +30,7 @@ _MU = (0.0, 0.1, 1.0, 10.0, 100.0)
     rules=[
         Bounded(key="step_error", high=1e-12, label="length of a step minus alpha [rad]"),
         Bounded(key="end", high=0.0, label="joint error at the end beyond the tolerance [rad]"),
-        NeedsPrinted(key="formula", label="the formula"),
+        NoOriginal(key="formula", label="the formula"),
     ],
     samples=16,
 )
@@ -56,7 +56,7 @@ def next_configuration(assumed: Assumed) -> Result:
 
 def nominal_values() -> dict[str, Any]:
     """Values of all assumptions of the document."""
-    return {key: entry.value for key, entry in REGISTRY.paper("qiu").assumptions.items()}
+    return REGISTRY.nominal("qiu")
 
 
 @checks(
@@ -66,7 +66,7 @@ def nominal_values() -> dict[str, Any]:
         Bounded(
             key="difference", high=1e-9, label="steps of the forward half against the formula [rad]"
         ),
-        NeedsPrinted(key="formula", label="the formula"),
+        NoOriginal(key="formula", label="the formula"),
     ],
 )
 def forward_update(assumed: Assumed) -> Result:
@@ -84,7 +84,7 @@ def forward_update(assumed: Assumed) -> Result:
             high=1e-9,
             label="steps of the backward half against the formula [rad]",
         ),
-        NeedsPrinted(key="formula", label="the formula"),
+        NoOriginal(key="formula", label="the formula"),
     ],
 )
 def backward_update(assumed: Assumed) -> Result:
@@ -128,7 +128,7 @@ def _update_difference(plan: SearchPlan, side: int) -> float:
     rules=[
         Bounded(key="beyond", high=0.0, label="gap of the halves beyond the tolerance [rad]"),
         Bounded(key="earlier", low=0.0, label="smallest earlier gap above the tolerance by [rad]"),
-        NeedsPrinted(key="tolerance", label="the tolerance"),
+        NoOriginal(key="tolerance", label="the tolerance"),
     ],
     samples=32,
 )
@@ -158,7 +158,7 @@ def meeting_test(assumed: Assumed) -> Result:
     "qiu.eq16",
     rules=[
         Bounded(key="difference", high=1e-8, label="spline against its normal equations [rad]"),
-        NeedsPrinted(key="formula", label="the formula"),
+        NoOriginal(key="formula", label="the formula"),
     ],
     samples=32,
 )

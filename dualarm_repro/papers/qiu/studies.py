@@ -7,7 +7,6 @@ All settings were fixed before the first run and are recorded with the outcome.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
@@ -24,6 +23,7 @@ from ...planning.search_plan import SearchPlan
 from ...planning.splice import smoothed
 from ...planning.time_map import hull_tracks, replay, time_map
 from ...scene import PlacedArm, Scene, Sphere, distances
+from ...tracking import memo
 from .campaign import campaign
 from .goals import draw_goals
 from .readings import (
@@ -48,21 +48,6 @@ from .scenario import (
     truth_scene,
 )
 
-_PLANNING = (
-    "adaptive_step bidirectional_compiled bidirectional_settings contact_check control_points "
-    "failure "
-    "hull_obstacle joint_attraction obstacles repulsive_force rrt_connect search_plan "
-    "search_problem "
-    "settings splice termination time_map variable_gain"
-)
-_PAPER = "campaign goals readings scenario studies"
-SOURCES = (
-    "arms",
-    "scene",
-    *(f"planning/{name}.py" for name in _PLANNING.split()),
-    *(f"papers/qiu/{name}.py" for name in _PAPER.split()),
-)
-INPUTS = ("robots/irb120.yaml",)
 #: Settings of every search of the studies, unless a cell says otherwise.
 FROZEN: dict[str, Any] = {
     "master_goal": "pulled_back",
@@ -131,8 +116,6 @@ ABLATION = REGISTRY.keeps(
         title="Success of every combination of the three improvements over the ratio of the gains",
         cells=_ablation_cells,
         compute=_ablation,
-        sources=SOURCES,
-        inputs=INPUTS,
         seed=SEED,
         settings=FROZEN,
     )
@@ -184,8 +167,6 @@ FIT = REGISTRY.keeps(
         title="Post-hoc fit of the meeting points of the master's halves",
         cells=_fit_cells,
         compute=_fit,
-        sources=SOURCES,
-        inputs=INPUTS,
         seed=SEED,
         settings={**FROZEN, "ratios": list(FIT_RATIOS)},
     )
@@ -265,11 +246,10 @@ def _without_floor(scene: Scene) -> Obstacles:
 SCENES = REGISTRY.keeps(
     Study(
         name="qiu_random_scenes",
+        peers={"ompl": "rrt_connect_"},
         title="Every variant of the search and RRT-Connect in random scenes of two to four spheres",
         cells=_scene_cells,
         compute=_scene,
-        sources=SOURCES,
-        inputs=INPUTS,
         seed=SEED + 10,
         settings={**FROZEN, "ratios": list(SCENE_RATIOS), "margin_m": _MARGIN},
     )
@@ -280,7 +260,7 @@ def _pair_cells() -> list[dict[str, Any]]:
     return [{"pair": k} for k in range(PAIR_COUNT)]
 
 
-@cache
+@memo()
 def _pair_scene() -> Scene:
     return truth_scene([placed("master"), placed("slave")])
 
@@ -349,8 +329,6 @@ PAIRS = REGISTRY.keeps(
         title="Master and slave on random pairs of goals in the printed scene, and RRT-Connect",
         cells=_pair_cells,
         compute=_pair,
-        sources=SOURCES,
-        inputs=INPUTS,
         seed=SEED + 20,
         settings={**FROZEN, "hull_radii": list(HULL_RADII), "hull_samples": HULL_SAMPLES,
                   "spread": SPREAD, "margin_m": _MARGIN},

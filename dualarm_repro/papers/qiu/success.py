@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from ...planning.failure import Failure, classify
 from ...planning.splice import roughness
 from ...view.success_curves import rate_figure
@@ -70,7 +70,7 @@ def _values(assumed: Assumed) -> dict[str, Any]:
         Bounded(
             key="planner_difference", low=1e-9, label="planner's rate, improved minus traditional"
         ),
-        NeedsPrinted(key="rates", label="the body of the table"),
+        NoOriginal(key="rates", label="the body of the table"),
     ],
 )
 def table_2(assumed: Assumed) -> Result:

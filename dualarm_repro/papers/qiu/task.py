@@ -75,7 +75,7 @@ def obstacles(assumed: Assumed) -> Result:
 )
 def start(assumed: Assumed) -> Result:
     """The tip at zero joints against the printed tip."""
-    return _start(assumed, "master", REGISTRY.item("qiu.claim_start").printed["tcp"])
+    return _start(assumed, "master", REGISTRY.printed("qiu.claim_start")["tcp"])
 
 
 def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
@@ -195,7 +195,7 @@ def _changes() -> pd.DataFrame:
 )
 def slave_task(assumed: Assumed) -> Result:
     """Start and goal of the slave, and the postures that reach the goal."""
-    printed = REGISTRY.item("qiu.claim_slave_task").printed["start"]
+    printed = REGISTRY.printed("qiu.claim_slave_task")["start"]
     begin = _start(assumed, "slave", printed)
     q = slave_posture(assumed)
     tip = end_effector(placed("slave", yaw=assumed["base_yaw"]), q)

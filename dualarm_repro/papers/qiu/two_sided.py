@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result, Rounds
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
 from ...planning.contact_check import ContactCheck, contact_check
 from ...planning.search_plan import SearchPlan
 from ...planning.splice import roughness
@@ -130,7 +130,7 @@ def meeting(assumed: Assumed) -> Result:
     "qiu.fig12",
     rules=[
         Is(key="joined", value=True, label="the two halves meet"),
-        NeedsPrinted(key="path", label="the path"),
+        NoOriginal(key="path", label="the path"),
     ],
     samples=32,
 )
@@ -195,7 +195,7 @@ def _scene(plan: SearchPlan) -> Scene3D:
             key="roughness_ratio", high=1.0, label="curvature after the spline over that before"
         ),
         Bounded(key="end_shift", high=1e-5, label="shift of the ends of the path [rad]"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
     samples=32,
 )
@@ -241,7 +241,7 @@ def splice(assumed: Assumed) -> Result:
         Bounded(
             key="largest_step", high=0.1, label="largest step of a joint on the smoothed path [rad]"
         ),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
     samples=32,
 )
@@ -274,7 +274,7 @@ def joint_angles(assumed: Assumed) -> Result:
     rules=[
         Bounded(key="start_error", high=1e-3, label="distance of the first point to the start [m]"),
         Bounded(key="goal_error", high=1e-3, label="distance of the last point to the goal [m]"),
-        NeedsPrinted(key="curves", label="the curves"),
+        NoOriginal(key="curves", label="the curves"),
     ],
     samples=32,
 )

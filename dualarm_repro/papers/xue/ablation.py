@@ -11,7 +11,6 @@ import numpy as np
 from ...ledger import REGISTRY, Study
 from .chosen import CASE, Chosen, assumption, nominal
 from .lottery import RANGES, random_case
-from .sources import ROBOTS, SOURCES
 from .trials import METHODS, TRIALS, outcomes, starts
 
 LAYOUTS = 150
@@ -59,8 +58,6 @@ ABLATION = REGISTRY.keeps(
         title="Joint term, virtual point and its switching, point and five-point repulsion apart",
         cells=_cells,
         compute=ablation_cell,
-        sources=(*SOURCES, "papers/xue/lottery.py", "papers/xue/ablation.py"),
-        inputs=ROBOTS,
         seed=20200345,
         settings=Chosen(
             (*CASE, "meeting_distance", "trial_perturbation"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -10,6 +10,7 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role, Rounds
+from ...tracking import memo
 from ..wording import point
 from .printed_chain import (
     LINKS,
@@ -51,7 +52,7 @@ def table_1(assumed: Assumed) -> Result:
     table = pd.DataFrame(
         {
             "link": list(LINKS),
-            "a_printed": REGISTRY.item("xue.tab01").printed["a"],
+            "a_printed": REGISTRY.printed("xue.tab01")["a"],
             "a_matrices": parameters["a"],
             "d_matrices": parameters["d"],
             "alpha_matrices": parameters["alpha"],
@@ -185,7 +186,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
     )
 
 
-@cache
+@memo()
 def symbolic_pose() -> sp.Matrix:
     """T(q) as the product of the printed matrices (2)-(7)."""
     return product([link_matrix(k) for k in LINKS])

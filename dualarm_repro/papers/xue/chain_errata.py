@@ -28,7 +28,7 @@ def eq01_angle() -> Proof:
 @REGISTRY.proves("xue.table1_shift")
 def table1_shift() -> Proof:
     """Column a of the table against the matrices, and what the two readings differ by."""
-    column = [float(text) for text in REGISTRY.item("xue.tab01").printed["a"]]
+    column = [float(text) for text in REGISTRY.printed("xue.tab01")["a"]]
     matrices = printed_parameters()["a"]
     ends = {pose: _difference(q) for pose, q in (("start", MASTER_START), ("goal", MASTER_GOAL))}
     return Proof(

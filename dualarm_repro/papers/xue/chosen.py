@@ -47,7 +47,7 @@ class Chosen(Mapping[str, Any]):
 
 def assumption(name: str) -> Any:
     """The value of an assumption of the document."""
-    return REGISTRY.paper("xue").assumptions[name].value
+    return REGISTRY.assumption(f"xue.{name}")
 
 
 def nominal() -> Case:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -14,6 +14,7 @@ from ...planning.apf import plan_apf
 from ...planning.problem import problem
 from ...planning.termination import StopReason
 from ...scene import PlacedArm
+from ...tracking import memo
 from .layout import placed_slave
 from .methods import improved, traditional
 from .motions import Case, slave_obstacles, slave_plan
@@ -64,7 +65,7 @@ def stops_at_zero(assumed: Assumed) -> Result:
     )
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def _trap(
     case: Case, reading: str, half_width: float, seed: int
 ) -> tuple[float, float | None, float | None] | None:

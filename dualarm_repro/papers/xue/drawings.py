@@ -9,7 +9,7 @@ import pandas as pd
 import pinocchio as pin
 
 from ...arms import load_arm
-from ...ledger import REGISTRY, Assumed, Bounded, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
@@ -29,7 +29,7 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
             high=1e-12,
             label="a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
         ),
-        NeedsPrinted(key="dimensions", label="the dimensions inside the drawing"),
+        NoOriginal(key="dimensions", label="the dimensions inside the drawing"),
     ],
 )
 def dimensions(assumed: Assumed) -> Result:
@@ -66,7 +66,7 @@ def dimensions(assumed: Assumed) -> Result:
             high=1e-12,
             label="each z axis is the axis its joint turns about, to",
         ),
-        NeedsPrinted(key="drawing", label="the drawing of the frames"),
+        NoOriginal(key="drawing", label="the drawing of the frames"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -102,7 +102,7 @@ def link_frames(assumed: Assumed) -> Result:
             high=1e-12,
             label="the slave is the reflection of the master, to [m]",
         ),
-        NeedsPrinted(key="bases", label="the base poses"),
+        NoOriginal(key="bases", label="the base poses"),
     ],
 )
 def both_arms(assumed: Assumed) -> Result:

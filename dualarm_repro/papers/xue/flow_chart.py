@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from ...planning.plan import Plan
 from ...planning.termination import StopReason
+from ...tracking import memo
 from ...view.transitions import transitions_figure
 from .ablation import NAMED
 from .layout import placed_slave
@@ -59,7 +60,7 @@ _WIDTH, _RUNS = 0.6, 40
             value=0,
             label="transitions between states that are not drawn",
         ),
-        NeedsPrinted(key="chart", label="the content of the chart"),
+        NoOriginal(key="chart", label="the content of the chart"),
     ],
 )
 def flow_chart(assumed: Assumed) -> Result:
@@ -100,7 +101,7 @@ def _master_first(case: Case) -> bool:
     return bool(len(obstacles.cores) > 1 and follows.max() < _SAME)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def _transitions(case: Case) -> Counter[tuple[str, str]]:
     """Transitions of whole runs: master, hand-over, slave."""
     counts: Counter[tuple[str, str]] = Counter()

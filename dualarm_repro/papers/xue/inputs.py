@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Adopts, Assumed, Is, NeedsPrinted, Result, Role, Rounds
+from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Result, Role, Rounds
 from ...planning.control_points import end_effector
 from ...view.scene3d import Scene3D
 from ...view.tracks import tracks_figure
@@ -25,7 +25,7 @@ checks = partial(REGISTRY.checks, page="xue/scene")
     rules=[
         Rounds(key="start", to="start", label="Start in the figure"),
         Rounds(key="end", to="end", label="End in the figure"),
-        NeedsPrinted(key="window", label="size, place and direction of the window"),
+        NoOriginal(key="window", label="size, place and direction of the window"),
     ],
 )
 def window(assumed: Assumed) -> Result:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from functools import cache, lru_cache
 from typing import Any, Self
 
 import numpy as np
@@ -12,6 +11,7 @@ import pinocchio as pin
 
 from ...arms import Arm, load_arm
 from ...scene import PlacedArm, Scene, facing, window_frame
+from ...tracking import memo
 from .postures import posture
 from .readings import READINGS
 from .scenario import MASTER_GOAL, MASTER_START, SLAVE_END, SLAVE_START
@@ -76,21 +76,21 @@ class Layout:
         return origin + SLAVE_START, origin + SLAVE_END
 
 
-@cache
+@memo()
 def arms_of(dh_source: str) -> tuple[Arm, Arm]:
     """Master by the matrices or by Table 1, and the slave, its mirror image."""
     master = load_arm(READINGS[dh_source])
     return master, load_arm("es165d-slave") if dh_source == "matrices" else master.mirrored()
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def placed_master(layout: Layout) -> PlacedArm:
     """The master on its base, with the printed start and goal."""
     placement = pin.SE3(np.eye(3), layout.master_base)
     return PlacedArm("master", arms_of(layout.dh_source)[0], placement, MASTER_START, MASTER_GOAL)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def placed_slave(layout: Layout) -> PlacedArm | None:
     """The slave on its base, with postures at Start and End; None where one is out of reach."""
     arm, base = arms_of(layout.dh_source)[1], layout.slave_base

@@ -28,7 +28,6 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
         Bounded(
             key="lottery.low",
             low=DECISIVE,
-            role=Role.DECIDES,
             label="arrangements with clear links, lower bound; else a printed layout",
         ),
     ],

@@ -29,7 +29,6 @@ from .motions import (
     slave_undisturbed,
 )
 from .scenario import SLAVE_END, SLAVE_START
-from .sources import ROBOTS, SOURCES
 from .trials import METHODS, TRIALS, outcomes, starts
 from .truth import link_cores
 
@@ -184,8 +183,6 @@ LOTTERY = REGISTRY.keeps(
         ),
         cells=_cells,
         compute=lottery_cell,
-        sources=SOURCES,
-        inputs=ROBOTS,
         seed=20200344,
         settings=Chosen(
             (*KEPT, "meeting_distance", "trial_perturbation"),

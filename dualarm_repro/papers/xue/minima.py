@@ -13,7 +13,6 @@ from ...ledger import REGISTRY, Study
 from ...planning.potentials import JointAttraction, PositionAttraction, Sum
 from ...scene import PlacedArm
 from .scenario import GAINS
-from .sources import ROBOTS
 
 PAIRS = 40
 BLOCKS = 10
@@ -64,8 +63,6 @@ MINIMA = REGISTRY.keeps(
         title="Minima of (13) without obstacles, over the weight of the joint term",
         cells=_cells,
         compute=minima_cell,
-        sources=("arms", "planning/potentials.py", "papers/xue/minima.py"),
-        inputs=ROBOTS,
         seed=20200347,
         settings={"pairs": PAIRS, "weights": WEIGHTS, "arrived": ARRIVED, "flat": FLAT},
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from functools import lru_cache
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -17,6 +16,7 @@ from ...planning.obstacles import Obstacles, obstacles_of
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
 from ...scene import JointPath, PlacedArm, Scene
+from ...tracking import memo
 from .layout import Layout, placed_master, placed_slave
 from .methods import Method, attraction_only, improved
 
@@ -57,7 +57,7 @@ def attempt(
         return None
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def master_plan(layout: Layout, method: Method) -> Plan | None:
     """Fig. 8: the master past the window by the improved method."""
     placed = placed_master(layout)
@@ -65,20 +65,20 @@ def master_plan(layout: Layout, method: Method) -> Plan | None:
     return attempt(placed, placed.start, window_obstacles(layout), settings)
 
 
-@lru_cache(maxsize=64)
+@memo(64)
 def master_undisturbed(layout: Layout, method: Method) -> Plan:
     """The master under attraction alone."""
     return _undisturbed(placed_master(layout), method)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def slave_undisturbed(layout: Layout, method: Method) -> Plan | None:
     """Fig. 9: the slave under attraction alone; None out of reach."""
     placed = placed_slave(layout)
     return None if placed is None else _undisturbed(placed, method)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def master_track(case: Case) -> JointPath | None:
     """Joint path of the master over the steps of the slave; None without a plan that arrives.
 
@@ -94,7 +94,7 @@ def master_track(case: Case) -> JointPath | None:
     return JointPath(plan.path, at_tool_speed(slave.tcp_length / slave.steps)(plan))
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def slave_obstacles(case: Case) -> Obstacles | None:
     """Window and moving master as the slave's planner sees them."""
     track = master_track(case)
@@ -106,7 +106,7 @@ def slave_obstacles(case: Case) -> Obstacles | None:
     return window_obstacles(case.layout).with_arm(master, points, track)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def slave_plan(case: Case) -> Plan | None:
     """Figs 10 and 11: the slave past window and moving master by the improved method."""
     obstacles = slave_obstacles(case)
@@ -117,7 +117,7 @@ def slave_plan(case: Case) -> Plan | None:
     return attempt(placed, placed.start, obstacles, settings)
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def window_obstacles(layout: Layout) -> Obstacles:
     """The window alone."""
     return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))

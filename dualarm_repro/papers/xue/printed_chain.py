@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 
 from ...ledger import REGISTRY
+from ...tracking import memo
 from .scenario import matrices_robot
 
 A, ALPHA, D, THETA = sp.symbols("a_prev alpha_prev d theta", real=True)
@@ -19,20 +18,20 @@ def joint_variable(k: int) -> sp.Symbol:
     return sp.Symbol(f"q_{k}", real=True)
 
 
-@cache
+@memo()
 def link_matrix(k: int) -> sp.Matrix:
     """Printed transform from link k-1 to link k, matrices (2)-(7), lengths as exact fractions."""
-    printed = REGISTRY.item(f"xue.eq{k + 1:02d}").printed["matrix"]
+    printed = REGISTRY.printed(f"xue.eq{k + 1:02d}")["matrix"]
     names = {f"theta_{k}": joint_variable(k)}
     return sp.Matrix(
         [[sp.sympify(cell, locals=names, rational=True) for cell in row] for row in printed]
     )
 
 
-@cache
+@memo()
 def general_matrix(corrected: bool) -> sp.Matrix:
     """Printed transform (1): as it stands, or with alpha in place of a inside sine and cosine."""
-    printed = REGISTRY.item("xue.eq01").printed["matrix"]
+    printed = REGISTRY.printed("xue.eq01")["matrix"]
     cells = [[cell.replace("a_{i-1}", "a_prev") for cell in row] for row in printed]
     matrix = sp.Matrix([[sp.sympify(cell, locals=_NAMES) for cell in row] for row in cells])
     if not corrected:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 from scipy.optimize import minimize
 
 from ...arms import load_arm
 from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
+from ...tracking import memo
 from .scenario import SEED
 
 READINGS = {"matrices": "es165d", "table": "es165d-table1", "published": "es165d-public"}
@@ -34,7 +33,7 @@ def lengths(reading: str) -> dict[str, float]:
     return {name: getattr(joints[row], column) for name, (column, row) in _LENGTHS.items()}
 
 
-@cache
+@memo()
 def reach(reading: str) -> float:
     """Largest distance of the flange from the origin of the base, joint limits left aside [m].
 

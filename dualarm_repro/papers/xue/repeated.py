@@ -10,7 +10,6 @@ import numpy as np
 
 from ...ledger import REGISTRY, Study
 from .chosen import CASE, Chosen, assumption, nominal
-from .sources import ROBOTS, SOURCES
 from .trials import outcomes, starts
 
 #: Blocks of trials per rule; the search over 729 neighbours takes ten times as long.
@@ -41,8 +40,6 @@ REPEATED = REGISTRY.keeps(
         title="Trials of both methods in the nominal arrangement, per rule of the joint step",
         cells=_cells,
         compute=repeated_cell,
-        sources=(*SOURCES, "papers/xue/repeated.py"),
-        inputs=ROBOTS,
         seed=20200346,
         settings=Chosen((*CASE, "trial_perturbation"), blocks=BLOCKS, block=BLOCK),
     )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import pinocchio as pin
 
@@ -21,6 +19,7 @@ from ...planning.settings import (
     VirtualPoint,
 )
 from ...scene import PlacedArm, Scene, facing, window_frame
+from ...tracking import memo
 from .methods import COMBINATIONS
 from .scenario import GAINS, MASTER_GOAL, MASTER_START, SEED
 
@@ -29,7 +28,7 @@ _CENTRE = np.array([1.4, 0.0, -1.1])
 _SHIFT = 1e-5  # [rad], of central differences
 
 
-@lru_cache(maxsize=64)
+@memo(64)
 def sample_problem(
     window_distance: str = "sum_over_bars",
     control_points: str = "frames_2_6",

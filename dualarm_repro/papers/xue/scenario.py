@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pinocchio as pin
 
@@ -11,6 +9,7 @@ from ...arms import Arm, load_arm
 from ...arms.angle import Angle
 from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
+from ...tracking import memo
 
 #: Start and goal angles of the master [rad], section 3.3.
 MASTER_START = np.zeros(6)
@@ -29,7 +28,7 @@ SEED = 20200344
 _RANGE_OF_U = {"bast165": None, "arte165": ("-230 deg", "142.5 deg")}
 
 
-@cache
+@memo()
 def arm_in_use(joint_ranges: str = "bast165", upper_arm: float = 1.024) -> Arm:
     """The arm of matrices (2)-(7), with other joint ranges or another upper arm if asked for.
 

@@ -27,7 +27,6 @@ from .motions import (
     slave_undisturbed,
 )
 from .scenario import GAINS
-from .sources import ROBOTS, SOURCES
 from .trials import TRIALS, run_methods, starts
 from .truth import link_cores
 
@@ -189,8 +188,6 @@ SEARCH = REGISTRY.keeps(
         title="Climbs to arrangements in which the printed facts hold together",
         cells=_cells,
         compute=search_cell,
-        sources=(*SOURCES, "papers/xue/lottery.py", "papers/xue/search.py"),
-        inputs=ROBOTS,
         seed=20200344,
         settings=Chosen(
             (*KEPT, "meeting_distance", "trial_perturbation", "trial_seed"),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from ...tracking import memo
 from ...view.shares import Share
 from .ablation import ABLATION, NAMED
 from .lottery import LOTTERY
@@ -25,7 +25,7 @@ def share(count: float, runs: float) -> Share:
     return Share(float(count) / float(runs), *wilson(int(count), int(runs)))
 
 
-@cache
+@memo()
 def lottery_table() -> pd.DataFrame:
     """One row per random arrangement in which Fig. 9 holds."""
     return LOTTERY.load()
@@ -82,7 +82,7 @@ def clear_share(radius: float, *pairs: str) -> Share:
     return share(clear.sum(), len(clear))
 
 
-@cache
+@memo()
 def repeated_shares() -> Mapping[str, Mapping[str, Share]]:
     """Share of trials in the nominal arrangement that miss, by rule of the step and method."""
     table = REPEATED.load()
@@ -95,7 +95,7 @@ def repeated_shares() -> Mapping[str, Mapping[str, Share]]:
     }
 
 
-@cache
+@memo()
 def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
     """Share of trials that miss, by method, over the random arrangements and in the named ones."""
     table = ABLATION.load()
@@ -110,7 +110,7 @@ def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
     }
 
 
-@cache
+@memo()
 def minima_shares() -> dict[float, Share]:
     """Share of random pairs whose descent rests in a minimum elsewhere, by weight."""
     table = MINIMA.load().groupby("weight")[["pairs", "minima"]].sum()

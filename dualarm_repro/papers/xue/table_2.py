@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache, partial
+from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -11,8 +11,9 @@ import numpy as np
 import pandas as pd
 
 from ...errors import InputError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NeedsPrinted, Result, Role
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Role
 from ...planning.batch import plan_batch
+from ...tracking import memo
 from ...view.shares import Share, count_grid_figure, shares_figure
 from .layout import placed_slave
 from .motions import Case, slave_obstacles
@@ -45,7 +46,7 @@ class Trials(NamedTuple):
     improved: Outcome
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def trials_of(case: Case, reading: str, half_width: float, seed: int) -> Trials | None:
     """Ten seeded trials; None where the slave has nothing to plan in this arrangement."""
     if slave_obstacles(case) is None:
@@ -129,7 +130,6 @@ def both_methods(assumed: Assumed) -> Result:
         Bounded(
             key="lottery.low",
             low=DECISIVE,
-            role=Role.DECIDES,
             label=(
                 "random arrangements in which all ten succeed, lower bound; else a printed layout"
             ),
@@ -172,7 +172,6 @@ def improved_succeeds(assumed: Assumed) -> Result:
         Bounded(
             key="lottery.low",
             low=DECISIVE,
-            role=Role.DECIDES,
             label=(
                 "random arrangements with at least 7 of 10 missed, lower bound; else a printed "
                 "layout"
@@ -215,7 +214,7 @@ def traditional_trapped(assumed: Assumed) -> Result:
         Bounded(
             key="step_ratio", low=1.0, label="steps of the traditional over the improved method"
         ),
-        NeedsPrinted(key="computer", label="the computer and which runs are timed"),
+        NoOriginal(key="computer", label="the computer and which runs are timed"),
     ],
     samples=32,
 )
@@ -226,7 +225,7 @@ def times(assumed: Assumed) -> Result:
     steps = _steps(trials, timed)
     old, new = steps["traditional"], steps["improved"]
     ratio = None if not (old and new) else old / new
-    printed = REGISTRY.item("xue.claim_times").printed
+    printed = REGISTRY.printed("xue.claim_times")
     labels = "as printed" if exchange == "trap_column" else "exchanged"
     printed_ratio = float(printed["traditional"]) / float(printed["improved"])
     return Result(
@@ -248,7 +247,7 @@ def times(assumed: Assumed) -> Result:
 
 def printed_counts() -> dict[str, str]:
     """The trap column of Table 2 by row, as printed."""
-    printed = REGISTRY.item("xue.tab02").printed
+    printed = REGISTRY.printed("xue.tab02")
     return {name: printed[name]["trapped"] for name in TEXT}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
 from ...planning.control_points import end_effector
 from ...planning.plan import Plan
 from ...scene import JointPath
+from ...tracking import memo
 from ...view.style import MASTER, SLAVE
 from ...view.tracks import Track, distances_figure, top_view_figure, tracks_figure
 from .facts import (
@@ -259,7 +260,7 @@ class Replay(NamedTuple):
     master: Any
 
 
-@lru_cache(maxsize=512)
+@memo(512)
 def replay_of(case: Case, slave: Plan | None) -> Replay | None:
     """The slave's plan and the master's track, or None where one of them is missing."""
     track = master_track(case)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -12,7 +12,8 @@ from ...arms import Arm
 from ...arms.occupancy import Occupancy, occupancy, rotation_volumes
 from ...arms.overlap import Overlap, overlap
 from ...arms.workspace import extents, sample_workspace, voxel_volume
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NeedsPrinted, Result
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
+from ...tracking import memo
 from ...view.clouds import cloud_figure, volume_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
@@ -28,13 +29,13 @@ _REPEATS = 5
 _SHOWN = 4000  # points of a cloud in the 3-D scene
 
 
-@cache
+@memo()
 def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
     """Flange positions of random configurations (points, 3) [m]."""
     return sample_workspace(arm, points, np.random.default_rng(seed))
 
 
-@cache
+@memo()
 def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
     """Overlap of master and mirrored slave."""
     master = arm_in_use(joint_ranges, upper_arm)
@@ -44,12 +45,12 @@ def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Ov
     return overlap((master, left), (slave, right), seed=SEED, points=_TEST_POINTS, maps=maps)
 
 
-@cache
+@memo()
 def _reached(arm: Arm) -> Occupancy:
     return occupancy(arm, _CELL, np.random.default_rng(SEED))
 
 
-@cache
+@memo()
 def _slave(master: Arm) -> Arm:
     return master.mirrored()
 
@@ -60,7 +61,7 @@ def _slave(master: Arm) -> Arm:
     rules=[
         Is(key="points", to="points", label="number of random points"),
         Bounded(key="beyond_reach", high=0.0, label="points beyond the largest possible reach"),
-        NeedsPrinted(key="extents", label="the joint ranges or the extents of the cloud"),
+        NoOriginal(key="extents", label="the joint ranges or the extents of the cloud"),
     ],
 )
 def master_cloud(assumed: Assumed) -> Result:

@@ -1,0 +1,216 @@
+"""The verdict on an item over all declared choices of what is not printed, with its witnesses."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from ..errors import LedgerError
+from .evaluation import Evaluation
+from .files import to_json
+from .influence import first_order
+from .registry import Registry
+from .robustness import NOT_COMPUTABLE, SEED, judged, miss, study_of, varied
+from .shares import Share
+from .verdict import Verdict
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: A statement that decides an item without an original, the gravest first.
+_PRECEDENCE = (
+    Verdict.INCONSISTENT,
+    Verdict.NOT_REPRODUCED,
+    Verdict.UNDECIDABLE,
+    Verdict.UNDER_ASSUMPTION,
+    Verdict.REPRODUCED,
+)
+
+
+@dataclass(frozen=True)
+class Settled:
+    """The verdict, and what it was settled with.
+
+    Attributes
+    ----------
+    witnesses
+        Choices of the assumptions with the verdict they give and the values that were judged.
+    robustness
+        Share of the draws, smallest flip and influence; None without stored draws.
+    search
+        How a witness was looked for where none was found.
+    decided_by
+        The statement that decided an item without an original.
+    """
+
+    verdict: Verdict
+    witnesses: list[dict[str, Any]] = field(default_factory=list)
+    robustness: dict[str, Any] | None = None
+    search: dict[str, Any] | None = None
+    decided_by: str | None = None
+
+
+def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str], str]) -> Settled:
+    """Settle the verdict on an evaluated item.
+
+    A statement about one run is possible (``reproduced-under-assumption``) if any declared choice
+    meets print, else ``not-reproduced``. One that claims more is ``undecidable`` where declared
+    choices disagree. An item without an original takes the verdict of a statement that decides it.
+
+    Parameters
+    ----------
+    verdict_of
+        Gives the settled verdict of another item.
+    """
+    item = evaluation.item
+    table = stored(registry, evaluation.item_id)
+    own = evaluation.verdict
+    found = Settled(own)
+    if evaluation.result is not None:
+        if own in (Verdict.NOT_REPRODUCED, Verdict.UNDER_ASSUMPTION, Verdict.UNDECIDABLE):
+            found = _over_choices(evaluation, table)
+        found = Settled(
+            found.verdict,
+            found.witnesses,
+            robustness(registry, evaluation, found.verdict, table),
+            found.search,
+        )
+    if own is Verdict.REGENERATED and item.statements:
+        verdicts = {name: verdict_of(name) for name in item.statements}
+        for grave in _PRECEDENCE:
+            deciding = [name for name, verdict in verdicts.items() if verdict == grave]
+            if deciding:
+                return Settled(grave, found.witnesses, found.robustness, found.search, deciding[0])
+    return found
+
+
+def stored(registry: Registry, item_id: str) -> pd.DataFrame | None:
+    """The stored draws of an item; None if there are none, or none of the code as it is."""
+    study = study_of(registry, item_id)
+    try:
+        return study.load() if study else None
+    except (LedgerError, OSError):
+        return None
+    except Exception as error:  # a table or its record that cannot be read
+        if type(error).__name__ in ("DataFileError", "ArrowInvalid"):
+            return None
+        raise
+
+
+def _over_choices(evaluation: Evaluation, table: pd.DataFrame | None) -> Settled:
+    own, result = evaluation.verdict, evaluation.result
+    nominal = {
+        "choice": "nominal",
+        "verdict": str(own),
+        "values": {},
+        "judged": judged(evaluation),
+    }
+    given = [dict(entry) for entry in result.witnesses]
+    tried = [] if table is None else _tried(table)
+    met = [entry for entry in tried if entry.pop("met")]
+    missed = [entry for entry in tried if entry not in met]
+    if own is Verdict.UNDECIDABLE:
+        return Settled(own, given)
+    if evaluation.item.scope == "general":
+        other = met if own is Verdict.NOT_REPRODUCED else missed
+        if other:
+            return Settled(Verdict.UNDECIDABLE, [nominal, other[0], *given])
+        return Settled(own, [nominal, *given], search=_search(evaluation, table))
+    if own is Verdict.UNDER_ASSUMPTION:
+        return Settled(own, [nominal, *given])
+    if met:
+        return Settled(Verdict.UNDER_ASSUMPTION, [met[0], *given])
+    return Settled(own, given, search=_search(evaluation, table))
+
+
+def _tried(table: pd.DataFrame) -> list[dict[str, Any]]:
+    """Every choice that was evaluated and is stored: draws first, then flips, then climbs."""
+    found = []
+    for index, row in table.iterrows():
+        if isinstance(row["values"], str) and row["verdict"] != NOT_COMPUTABLE:
+            found.append(
+                {
+                    "choice": f"{row['kind']} {index}",
+                    "verdict": row["verdict"],
+                    "values": json.loads(row["values"]),
+                    "judged": json.loads(row["judged"]),
+                    "met": bool(row["met"]),
+                }
+            )
+    return found
+
+
+def _search(evaluation: Evaluation, table: pd.DataFrame | None) -> dict[str, Any] | None:
+    """How a witness was looked for: method, evaluations and the nearest miss."""
+    if table is None:
+        return None
+    draws, climbs = table[table["kind"] == "draw"], table[table["kind"] == "search"]
+    rows = table[table["miss"].notna() & table["values"].notna()]
+    nearest = {"choice": "nominal", "values": {}, "miss": miss(evaluation)}
+    if len(rows) and rows["miss"].min() < nearest["miss"]:
+        best = rows["miss"].idxmin()
+        nearest = {
+            "choice": f"{rows.loc[best, 'kind']} {best}",
+            "values": json.loads(rows.loc[best, "values"]),
+            "miss": float(rows.loc[best, "miss"]),
+        }
+    return {
+        "method": "draws and climbs" if len(climbs) else "draws",
+        "directed": bool(len(climbs)),
+        "evaluations": len(draws) + int(climbs["evaluations"].sum() if len(climbs) else 0),
+        "nearest": nearest,
+    }
+
+
+def robustness(
+    registry: Registry, evaluation: Evaluation, verdict: Verdict, table: pd.DataFrame | None
+) -> dict[str, Any] | None:
+    """What the draws of a table say: shares, smallest flip, influence; None without draws."""
+    if table is None:
+        return None
+    draws = table[table["kind"] == "draw"]
+    if not len(draws):
+        return None
+    item, paper = evaluation.item, registry.paper_of(evaluation.item_id)
+    entries = {key: paper.assumptions[key] for key in item.assumptions}
+    met = draws["met"].astype(bool).to_numpy()
+    misses = verdict in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
+    holds = (draws["verdict"] == str(verdict)).to_numpy() if misses else met
+    share, meets = Share.of(holds.sum(), len(holds)), Share.of(met.sum(), len(met))
+    values = [json.loads(text) for text in draws["values"]]
+    influence = {
+        key: index
+        for key in varied(entries)
+        if (index := first_order([row[key] for row in values], met, SEED)) is not None
+    }
+    return json.loads(
+        to_json(
+            {
+                "holds": share.value,
+                "samples": len(draws),
+                "interval": [share.low, share.high],
+                "meets_print": {"share": meets.value, "interval": [meets.low, meets.high]},
+                "not_computable": int((draws["verdict"] == NOT_COMPUTABLE).sum()),
+                "varied": list(varied(entries)),
+                "flip": _smallest_flip(table, entries),
+                "influence": dict(sorted(influence.items(), key=lambda pair: -pair[1])),
+            }
+        )
+    )
+
+
+def _smallest_flip(table: pd.DataFrame, entries: Mapping[str, Any]) -> dict[str, Any] | None:
+    rows = table[(table["kind"] == "change") & table["change"].notna()]
+    if not len(rows):
+        return None
+    row = rows.loc[rows["change"].astype(float).idxmin()]
+    key = row["assumption"]
+    return {
+        "assumption": key,
+        "nominal": entries[key].value,
+        "value": json.loads(row["values"])[key],
+        "change": float(row["change"]),
+        "verdict": row["verdict"],
+    }

@@ -1,0 +1,53 @@
+"""Run independent tasks in this process, in worker processes, or on a Dask cluster; in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from ..errors import InputError, LedgerError
+
+
+def results(
+    tasks: Iterable[tuple[Callable[..., Any], Any, Any]],
+    count: int,
+    title: str,
+    jobs: int = 1,
+    progress: bool = False,
+    scheduler: str | None = None,
+) -> Iterator[Any]:
+    """The results of ``function(a, b)`` for every task, in the order of the tasks.
+
+    Parameters
+    ----------
+    jobs
+        Worker processes on this machine.
+    scheduler
+        Address of a Dask scheduler ("tcp://host:8786") whose workers compute instead.
+
+    Raises
+    ------
+    LedgerError
+        The extra ``cluster`` is not installed.
+    InputError
+        Nothing answers at that address.
+    """
+    from joblib import Parallel, delayed, parallel_config
+    from tqdm import tqdm
+
+    calls = (delayed(function)(a, b) for function, a, b in tasks)
+    if scheduler is None:
+        done = Parallel(n_jobs=jobs, return_as="generator")(calls)
+        yield from tqdm(done, total=count, desc=title, disable=not progress)
+        return
+    try:
+        from dask.distributed import Client
+    except ImportError:
+        raise LedgerError("a Dask scheduler needs the extra `cluster`") from None
+    try:
+        client = Client(scheduler, timeout="10s")
+    except (OSError, ValueError) as error:
+        reason = str(error) or type(error).__name__
+        raise InputError("study", "--scheduler", scheduler, f"a scheduler ({reason})") from None
+    with client, parallel_config("dask", client=client):
+        yield from tqdm(Parallel()(calls), total=count, desc=title, disable=not progress)
