@@ -3,7 +3,6 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 UV := .boot/bin/uv
-CODE := $(shell find dualarm_repro data requirements.lock -type f -not -name '*.pyc' 2>/dev/null)
 # One thread per process: results must not depend on how many cores a BLAS finds.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
@@ -21,19 +20,19 @@ help:  ## list the targets
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
 
-book: $(VENV)/.installed _build/.code  ## execute every notebook and build _build/html/index.html
+book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.html
 	$(BIN)/python tools/prerun.py
 	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
 	$(BIN)/python tools/check_book.py
 
-test: $(VENV)/.installed _build/.code  ## run the whole test suite
+test: $(VENV)/.installed  ## run the whole test suite
 	$(BIN)/python tools/prerun.py --records
 	$(BIN)/python -m pytest
 
-verify: $(VENV)/.installed _build/.code  ## recompute every item from nothing and compare with data/results
+verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
 
-results: $(VENV)/.installed _build/.code  ## recompute and rewrite the reference results in data/results
+results: $(VENV)/.installed  ## recompute and rewrite the reference results in data/results
 	$(BIN)/dualarm verify --update
 
 bench: $(VENV)/.bench  ## ratios against peers, measured in one run
@@ -54,13 +53,6 @@ wheel: $(VENV)/.installed  ## build a wheel that carries the data files
 
 clean:  ## remove everything that was built, keep the environment
 	rm -rf _build dist
-
-# The notebook cache knows only the cells, and numba's only the file of the function itself: drop
-# both whenever library, data or lock change.
-_build/.code: $(CODE)
-	rm -rf _build/.jupyter_cache && mkdir -p _build
-	find dualarm_repro -name '*.nb[ic]' -delete
-	touch $@
 
 $(UV):
 	$(PYTHON) -m pip install -q --disable-pip-version-check --target .boot uv==0.13.9

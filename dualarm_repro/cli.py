@@ -7,30 +7,33 @@ import os
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
-from rich.table import Table
-from tqdm import tqdm
 from typer.exceptions import TyperException
 
 from .errors import DualArmError, LedgerError, UnknownNameError
-from .ledger import Registry
 from .ledger.schema import Kind
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from .ledger import Registry
 
 app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    help="Reproduced figures, tables, equations and claims of four documents on dual-arm robots.",
+    help="Reproduced figures, tables, equations and claims of documents on dual-arm robots.",
 )
 
 Ids = Annotated[list[str], typer.Argument(metavar="ID...", help="item ids, e.g. xue.fig05")]
 OneId = Annotated[str, typer.Argument(metavar="ID", help="item id, e.g. xue.tab01")]
+Jobs = Annotated[int, typer.Option(min=1, help="worker processes on this machine")]
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="a Dask scheduler whose workers compute")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="machine-readable output")]
-#: Draws of `sensitivity` for an item of which the book draws none.
-_DRAWS = 16
 #: Rows of a table that `run` prints.
 _ROWS = 12
 
@@ -44,7 +47,7 @@ class CitationFormat(StrEnum):
 
 @app.command("list")
 def list_items(
-    paper: Annotated[str | None, typer.Option(help="one document: xue, qiu, patent, pan")] = None,
+    paper: Annotated[str | None, typer.Option(help="one document, by its id")] = None,
     kind: Annotated[Kind | None, typer.Option(help="one kind of item")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -62,15 +65,17 @@ def list_items(
     if as_json:
         _print_json(records)
         return
+    from rich.table import Table
+
     table = Table("id", "kind", "verdict", "title", box=None)
     for made in records:
-        table.add_row(made["id"], made["kind"], made["verdict"], made["title"])
+        table.add_row(made["id"], made["kind"], _verdict(made), made["title"])
     _console().print(table)
 
 
 @app.command()
 def show(item_id: OneId, as_json: AsJson = False) -> None:
-    """Show one item: printed, obtained, verdict, assumptions, errata, robustness."""
+    """Show one item: printed, obtained, verdict, witnesses, assumptions, errata, robustness."""
     made = _record(_registry(), item_id)
     if as_json:
         _print_json(made)
@@ -84,17 +89,16 @@ def run(
     out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
 ) -> None:
     """Compute items and write ID.json, ID.csv, ID.svg, ID.png and, where there is one, ID.html."""
-    from .ledger import evaluate
     from .ledger.export import export
-    from .ledger.record import compose
+    from .ledger.record import located, make
     from .view.card import card_figure
 
     registry = _registry()
     for item_id in ids:
         registry.item(item_id)
     for item_id in _progress(ids):
-        evaluation = evaluate(registry, item_id)
-        made = json.loads(_json(compose(registry, evaluation)))
+        entry, evaluation = make(registry, item_id)
+        made = located(entry["record"])
         files = export(evaluation, made, out, card_figure)
         _describe(made)
         if evaluation.result and (table := evaluation.result.table) is not None:
@@ -108,6 +112,8 @@ def run(
 def verify(
     ids: Annotated[list[str] | None, typer.Argument(metavar="[ID...]")] = None,
     update: Annotated[bool, typer.Option(help="rewrite the reference instead")] = False,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     as_json: AsJson = False,
 ) -> None:
     """Recompute items from nothing and compare them with data/results; exit 1 on any drift."""
@@ -117,7 +123,14 @@ def verify(
     chosen = ids or list(registry.items)
     for item_id in chosen:
         registry.item(item_id)
-    report = reference.verify(registry, _progress(chosen), update=update)
+    report = reference.verify(
+        registry,
+        chosen,
+        update=update,
+        jobs=jobs,
+        progress=sys.stderr.isatty(),
+        scheduler=scheduler,
+    )
     if as_json:
         _print_json(report)
     else:
@@ -134,26 +147,24 @@ def verify(
 def sensitivity(
     item_id: OneId,
     samples: Annotated[
-        int | None,
-        typer.Option(help="draws of the assumptions; default those of the book, or 16"),
+        int | None, typer.Option(help="draw anew, so many; default the stored draws")
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Sample the assumptions of an item: how often its verdict holds, and what flips it."""
-    from rich.console import Console
-
-    from .ledger import robustness
-
+    """Sample the assumptions of an item: how often print is met, and what flips the verdict."""
     registry = _registry()
-    with Console(stderr=True).status(f"sampling the assumptions of {item_id}"):
-        found = robustness(registry, item_id, samples)
-        if found is None and samples is None:  # too slow for the book, not for who asks
-            found = robustness(registry, item_id, _DRAWS)
-    plain = found.as_json() if found else None
-    if as_json:
-        _print_json({"id": item_id, "robustness": plain})
+    registry.item(item_id)
+    if samples is None:
+        found = _record(registry, item_id)["robustness"]
     else:
-        print(f"{item_id}: {_robustness_line(plain)}")
+        from .ledger.settled import robustness_of_draws
+
+        with _console(stderr=True).status(f"sampling the assumptions of {item_id}"):
+            found = robustness_of_draws(registry, item_id, samples)
+    if as_json:
+        _print_json({"id": item_id, "robustness": found})
+    else:
+        print(f"{item_id}: {_robustness_line(found)}")
 
 
 @app.command()
@@ -169,6 +180,8 @@ def methods(as_json: AsJson = False) -> None:
             ]
         )
         return
+    from rich.table import Table
+
     table = Table("method", "description", box=None)
     for name, entry in METHODS.items():
         table.add_row(name, entry.description)
@@ -207,21 +220,36 @@ def plan(
 
 @app.command()
 def study(
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME...]")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="worker processes")] = 1,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME...]", help="names, or patterns such as 'robustness/xue.*'"),
+    ] = None,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
+    stale: Annotated[bool, typer.Option(help="only those that are not up to date")] = False,
 ) -> None:
     """Recompute stored studies whole; without a name, list them and whether they are up to date."""
-    registry = _registry()
+    from fnmatch import fnmatchcase
+
+    from .ledger.spot import stored_studies
+
+    known = stored_studies(_registry())
     for name in names or []:
-        if name not in registry.studies:
-            expected = f"one of {', '.join(registry.studies) or 'none stored yet'}"
+        if not any(fnmatchcase(one, name) for one in known):
+            expected = f"one of {', '.join(known) or 'none stored yet'}"
             raise UnknownNameError("study", "NAME", name, expected)
-    for name in names or []:
-        table = registry.studies[name].run(jobs, progress=sys.stderr.isatty())
-        print(f"{name}: {len(table)} cells stored")
-    if not names:
-        for name, entry in registry.studies.items():
-            print(f"{name}: {entry.status()} - {entry.title}")
+    chosen = [
+        entry
+        for name, entry in known.items()
+        if (not names or any(fnmatchcase(name, pattern) for pattern in names))
+        and not (stale and entry.status() == "up to date")
+    ]
+    for entry in chosen:
+        if names or stale:
+            table = entry.run(jobs, sys.stderr.isatty(), scheduler=scheduler)
+            print(f"{entry.name}: {len(table)} cells stored", flush=True)
+        else:
+            print(f"{entry.name}: {entry.status()} - {entry.title}")
 
 
 @app.command()
@@ -280,11 +308,18 @@ def _record(registry: Registry, item_id: str) -> dict[str, Any]:
 
 def _progress(ids: list[str]) -> Any:
     """Progress on a terminal, silence elsewhere."""
-    return tqdm(ids, leave=False, disable=not sys.stderr.isatty() or len(ids) < 2)
+    if not sys.stderr.isatty() or len(ids) < 2:
+        return ids
+    from tqdm import tqdm
+
+    return tqdm(ids, leave=False)
 
 
-def _console() -> Console:
-    return Console(width=None if sys.stdout.isatty() else 160, highlight=False, markup=False)
+def _console(stderr: bool = False) -> Console:
+    from rich.console import Console
+
+    width = None if (sys.stderr if stderr else sys.stdout).isatty() else 160
+    return Console(width=width, highlight=False, markup=False, stderr=stderr)
 
 
 def _json(value: Any) -> str:
@@ -300,39 +335,74 @@ def _print_json(value: Any) -> None:
 def _describe(made: dict[str, Any]) -> None:
     """Print a record for a reader."""
     print(f"{made['id']}  {made['title']}  [{made['kind']}, {made['place']}]")
-    print(f"verdict: {made['verdict']}" + (f" ({made['change']})" if made["change"] else ""))
+    print(f"verdict: {_verdict(made)}" + (f" ({made['change']})" if made["change"] else ""))
+    if made["decided_by"]:
+        print(f"  no original in the source; decided by the statement {made['decided_by']}")
     if made["pending"]:
         print(f"pending: {made['pending']}")
+    if made["printed"] is not None:
+        print(f"printed: {json.dumps(made['printed'], ensure_ascii=False)}")
     if made["caption"]:
         print(made["caption"])
     for check in made["checks"]:
-        mark = "holds" if check["holds"] else "fails"
         found = json.dumps(check["obtained"], ensure_ascii=False)
-        print(f"  {mark}: {check['label']}: obtained {found}, expected {check['expected']}")
+        print(f"  {check['outcome']}: {check['label']}: obtained {found}, "
+              f"expected {check['expected']}")  # fmt: skip
     for name, value in (made["measured"] or {}).items():
         print(f"  measured: {name} = {value}")
-    for entry in made["assumptions"]:
-        print(f"  assumption {entry['id']}: {entry['statement']} ({entry['value']})")
+    for entry in made["witnesses"]:
+        values = (
+            json.dumps(entry["values"], ensure_ascii=False) if entry["values"] else "as declared"
+        )
+        print(f"  witness ({entry['choice']}): {entry['verdict']} with {values}")
+    for line in _search_lines(made):
+        print(f"  {line}")
+    for name, entry in made["thresholds"].items():
+        print(f"  threshold {name} = {entry['value']:g}: {entry['reason']}")
+    for kind in ("assumptions", "context"):
+        for entry in made[kind]:
+            word = kind.removesuffix("s")
+            print(f"  {word} {entry['id']}: {entry['statement']} ({entry['value']})")
     for entry in made["errata"]:
         proof = entry["proof"]
         proved = entry.get("no_proof") if proof is None else _proof_line(proof)
         print(f"  erratum {entry['id']}: {entry['problem']} [{proved}]")
     for datum in made["missing"]:
         print(f"  not printed: {datum}")
-    print(f"  robustness: {_robustness_line(made['robustness'])}")
+    print(f"  robustness: {_robustness_line(made['robustness'], made['draws'])}")
+    if code := made["code"]:
+        print(f"  code: {code['file']}:{code['line']} {code['function']}; page {made['page']}")
+
+
+def _search_lines(made: dict[str, Any]) -> list[str]:
+    from .view.card import search_lines
+
+    return search_lines(made)
+
+
+def _verdict(made: dict[str, Any]) -> str:
+    """The verdict, with the share of the plausible choices that meet print where it has one."""
+    found = made["robustness"]
+    if found is None or made["verdict"] != "reproduced-under-assumption":
+        return made["verdict"]
+    return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
 
 
 def _proof_line(proof: dict[str, Any]) -> str:
     return f"{'proved' if proof['holds'] else 'PROOF FAILS'}: {proof['statement']}"
 
 
-def _robustness_line(found: dict[str, Any] | None) -> str:
+def _robustness_line(found: dict[str, Any] | None, draws: str = "none") -> str:
     if found is None:
-        return "rests on no sampled assumption"
-    low, high = found["interval"]
+        return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
+    low, high = found["meets_print"]["interval"]
     text = (
-        f"verdict holds in {found['holds']:.1%} of {found['samples']} draws ({low:.1%}-{high:.1%})"
+        f"print is met in {found['meets_print']['share']:.1%} of {found['samples']} draws "
+        f"({low:.1%}-{high:.1%})"
     )
+    if found["influence"]:
+        name, index = next(iter(found["influence"].items()))
+        text += f"; most influential: {name} ({index:.2f})"
     flip = found["flip"]
     if flip is None:
         return f"{text}; no single change within the plausible values flips it"

@@ -43,6 +43,7 @@ class Evaluation:
                 "expected": rule.expectation(evidence),
                 "obtained": rule.found(evidence),
                 "holds": rule.holds(evidence),
+                "outcome": str(rule.outcome(evidence)),
             }
             for rule in self.checker.rules
         ]

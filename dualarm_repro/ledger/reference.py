@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 from ..datafiles import data_path
@@ -42,6 +43,20 @@ def read_reference(paper: str) -> dict[str, Any]:
     if not isinstance(found, dict) or not all(isinstance(v, dict) for v in found.values()):
         raise DataFileError(path, "items", found, "reference results as JSON, by item id")
     return found
+
+
+def costs_path() -> Path:
+    """File with the seconds that each item took when the reference was written."""
+    return data_path("results", "costs.json")
+
+
+def read_costs() -> dict[str, float]:
+    """Seconds per item, to start the longest first; empty if none are known."""
+    try:
+        found = json.loads(costs_path().read_text(encoding="utf-8"))
+        return {str(key): float(value) for key, value in found.items()}
+    except (OSError, ValueError, AttributeError, TypeError):
+        return {}
 
 
 def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
@@ -84,7 +99,9 @@ def verify(
     ids = list(item_ids)
     tasks = ((_outcome, registry.reopen, item_id) for item_id in ids)
     made = results(tasks, len(ids), "verify", jobs, progress, scheduler)
-    found = dict(zip(ids, made, strict=True))
+    found, seconds = {}, {}
+    for item_id, (one, taken) in zip(ids, made, strict=True):
+        found[item_id], seconds[item_id] = one, round(taken, 1)
     papers = {item_id.partition(".")[0] for item_id in found}
     reference = {key: value for paper in papers for key, value in read_reference(paper).items()}
     if update:
@@ -92,6 +109,7 @@ def verify(
             kept = {**read_reference(paper), **found}
             items = {i: kept[i] for i in registry.items if i in kept and i.startswith(f"{paper}.")}
             write_text(reference_path(paper), to_json({"items": items}))
+        write_text(costs_path(), to_json({**read_costs(), **seconds}))
     drifted = [
         {"id": item_id, "differences": lines}
         for item_id, one in found.items()
@@ -102,5 +120,6 @@ def verify(
     return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
 
 
-def _outcome(reopen: Any, item_id: str) -> dict[str, Any]:
-    return outcome(reopen(), item_id)
+def _outcome(reopen: Any, item_id: str) -> tuple[dict[str, Any], float]:
+    start = process_time()
+    return outcome(reopen(), item_id), process_time() - start

@@ -220,14 +220,19 @@ class Study:
             raise LedgerError(f"{self.name}: {status}; run `dualarm study {self.name}`")
         return pd.read_parquet(opened(self.table_path))
 
-    def spot_check(self, count: int, seed: int) -> list[str]:
-        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store."""
+    def spot_check(self, count: int, seed: int, kind: str | None = None) -> list[str]:
+        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store.
+
+        Parameters
+        ----------
+        kind
+            Draw among the cells of this ``kind`` only.
+        """
         if count < 1:
             raise InputError("spot check", "count", count, "a positive number")
         table, cells = self.load(), self.cells()
-        drawn = np.random.default_rng(seed).choice(
-            len(cells), min(count, len(cells)), replace=False
-        )
+        among = [k for k, cell in enumerate(cells) if kind in (None, cell.get("kind"))]
+        drawn = np.random.default_rng(seed).choice(among, min(count, len(among)), replace=False)
         found = []
         for index in sorted(int(k) for k in drawn):
             with recording() as inputs:
