@@ -24,6 +24,8 @@ _CSL_TYPE = {
 }
 #: Where a type names its venue; without one BibTeX calls the entry incomplete.
 _VENUE = {"article": "journal", "inproceedings": "booktitle"}
+#: BibTeX names a language, CSL-JSON takes its tag.
+_LANGUAGE = {"zh": "chinese"}
 #: What has a meaning in TeX and pybtex leaves as it is; it escapes the other signs itself.
 _TEX = {
     "\\": r"\textbackslash{}",
@@ -65,6 +67,7 @@ class _Result:
         self.project = made_by
 
     def bibtex(self) -> str:
+        """BibTeX entry."""
         fields = {
             "title": self.title,
             "howpublished": f"{self.project.name}, version {self.project.version}",
@@ -74,6 +77,7 @@ class _Result:
         return _entry("misc", self.key, self.project.authors, fields)
 
     def csl(self) -> dict[str, Any]:
+        """CSL-JSON entry."""
         return {
             "id": self.key,
             "type": "software",
@@ -97,7 +101,7 @@ def bibtex(document: Document) -> str:
         venue or "howpublished": document.journal,
         "institution": document.affiliation,
         "year": document.year,
-        "language": document.language,
+        "language": _LANGUAGE.get(document.language, document.language),
         "note": document.note,
     }
     return _entry(kind, document.id, document.authors, fields)

@@ -44,7 +44,7 @@ def project() -> Project:
         version=found["Version"],
         summary=found["Summary"],
         authors=tuple(name.strip() for name in found["Author"].split(",")),
-        keywords=tuple(word.strip() for word in found["Keywords"].split(",")),
+        keywords=tuple(sorted(word.strip() for word in found["Keywords"].split(","))),
         licence=found["License-Expression"],
         python=found["Requires-Python"],
     )
@@ -57,7 +57,7 @@ def from_table(table: dict[str, Any]) -> Project:
         version=table["version"],
         summary=table["description"],
         authors=tuple(author["name"] for author in table["authors"]),
-        keywords=tuple(table["keywords"]),
+        keywords=tuple(sorted(table["keywords"])),
         licence=table["license"],
         python=table["requires-python"],
     )
