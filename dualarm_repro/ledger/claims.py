@@ -22,7 +22,7 @@ from pydantic import Field, ValidationError
 from ..datafiles import data_path, from_validation, read_yaml
 from ..errors import DataFileError
 from .reference import read_reference, reference_path
-from .schema import Model, Text
+from .schema import Model, Text, load_paper
 
 _HEAD = "# Written by `dualarm export` or tools/metadata.py; check with `claims verify repro.yaml`.\n"
 _FILE = "headlines.yaml"
@@ -35,6 +35,7 @@ class Headline(Model):
     item: Text = Field(description="id of the item that obtains it")
     path: list[str | int] = Field(min_length=1, description="keys down to the number")
     digits: Annotated[int, Field(ge=1, le=6)] = Field(default=4, description="significant")
+    printed: bool = Field(default=False, description="the digits are those the document prints")
 
 
 class HeadlineFile(Model):
@@ -83,18 +84,18 @@ def statements(path: Path | None = None) -> list[Statement]:
     """
     path, found = path or data_path(_FILE), []
     for k, headline in enumerate(headlines(path)):
-        value: Any = read_reference(headline.item.partition(".")[0]).get(headline.item, {})
-        value = value.get("obtained")
-        try:
-            for part in headline.path:
-                value = value[part]
-        except (KeyError, IndexError, TypeError):
-            value = None
+        paper = headline.item.partition(".")[0]
+        obtained = read_reference(paper).get(headline.item, {}).get("obtained")
+        value = _at(obtained, headline.path)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            where = f"{headline.item}: {'.'.join(map(str, headline.path))}"
             expected = "the path of a number in the reference results"
-            raise DataFileError(path, f"headlines.{k}", where, expected)
+            raise DataFileError(path, f"headlines.{k}", _name(headline), expected)
         digits = rounded(value, headline.digits)
+        if headline.printed:
+            digits = _at(_printed(headline.item), headline.path)
+            if not isinstance(digits, str):
+                expected = "a value that is printed under the same path"
+                raise DataFileError(path, f"headlines.{k}", _name(headline), expected)
         found.append(Statement(headline.text, headline.item, tuple(headline.path), digits))
     return found
 
@@ -158,6 +159,26 @@ def reference_manifest() -> str:
         return item.partition(".")[0], f"/items/{_escape(item)}/obtained"
 
     return manifest(stated, files, locate)
+
+
+def _printed(item: str) -> Any:
+    """What the document prints for an item."""
+    paper, _, key = item.partition(".")
+    return load_paper(data_path("papers", f"{paper}.yaml")).items[key].printed
+
+
+def _at(value: Any, path: Iterable[str | int]) -> Any:
+    """What is found going down the keys of ``path``, or nothing."""
+    try:
+        for part in path:
+            value = value[part]
+    except (KeyError, IndexError, TypeError):
+        return None
+    return value
+
+
+def _name(headline: Headline) -> str:
+    return f"{headline.item}: {'.'.join(map(str, headline.path))}"
 
 
 def _escape(part: str | int) -> str:
