@@ -24,7 +24,9 @@ from ..errors import DataFileError
 from .reference import read_reference, reference_path
 from .schema import Model, Text, load_paper
 
-_HEAD = "# Written by `dualarm export` or tools/metadata.py; check with `claims verify repro.yaml`.\n"
+_HEAD = (
+    "# Written by `dualarm export` or tools/metadata.py; check with `claims verify repro.yaml`.\n"
+)
 _FILE = "headlines.yaml"
 
 

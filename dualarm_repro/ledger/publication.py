@@ -34,7 +34,15 @@ FILES = {
 }
 SCHEMA = "schemas/{}.json"
 CRATE_TEXT = "RO-Crate metadata: what each file is, who made it, under which licence"
-ZIP, ZIP_TEXT = "ledger.zip", "All of the above in one file"
+ZIP, ZIP_TEXT = "ledger.zip", "All files in one"
+_SCHEMA_TEXT = {
+    "schemas/ledger.json": "JSON Schema of ledger.json",
+    "schemas/paper.json": "JSON Schema of a document's file with its items (data/papers)",
+    "schemas/record.json": "JSON Schema of the record of one item",
+    "schemas/robot.json": "JSON Schema of a robot file (data/robots)",
+    "schemas/scene.json": "JSON Schema of a scene file (data/scenes)",
+    "schemas/task.json": "JSON Schema of a task file for `dualarm plan`",
+}
 #: The earliest date a zip can hold.
 _DATE = (1980, 1, 1, 0, 0, 0)
 
@@ -71,7 +79,7 @@ def publish(
     documents = list(documents)
     texts = _texts(records, project, documents, statements)
     texts |= {SCHEMA.format(name): to_json(schema) for name, schema in schemas.items()}
-    parts = {name: Part(description(name)) for name in [*FILES, *texts]}
+    parts = {name: Part(text) for name, text in names(schemas).items() if name not in (CRATE, ZIP)}
     about = f"The ledger of {project.name} {project.version}: {len(records)} items"
     texts[CRATE] = crate(project, documents, parts, about)
     table = ledger_table(records)
@@ -80,16 +88,22 @@ def publish(
         folder / "ledger.parquet",
         lambda path: table.to_parquet(path, index=False, compression="zstd"),
     )
-    names = sorted(written)
-    archive = write(folder / ZIP, lambda path: _pack(path, folder, names))
-    return [*(written[name] for name in names), archive]
+    members = sorted(written)
+    archive = write(folder / ZIP, lambda path: _pack(path, folder, members))
+    return [*(written[name] for name in members), archive]
 
 
-def description(name: str) -> str:
-    """What a file of an export is."""
-    if name in FILES:
-        return FILES[name]
-    return {CRATE: CRATE_TEXT, ZIP: ZIP_TEXT}.get(name, f"JSON Schema of a {Path(name).stem}")
+def names(schemas: Iterable[str]) -> dict[str, str]:
+    """Name of every file of an export, with what it is.
+
+    Parameters
+    ----------
+    schemas
+        Names of the schemas.
+    """
+    described = {SCHEMA.format(name): f"JSON Schema of a {name}" for name in schemas}
+    described = {name: _SCHEMA_TEXT.get(name, text) for name, text in described.items()}
+    return {**FILES, **described, CRATE: CRATE_TEXT, ZIP: ZIP_TEXT}
 
 
 def _texts(
@@ -119,9 +133,9 @@ def _texts(
     }
 
 
-def _pack(path: Path, folder: Path, names: Iterable[str]) -> None:
+def _pack(path: Path, folder: Path, members: Iterable[str]) -> None:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name in names:
+        for name in members:
             member = zipfile.ZipInfo(name, _DATE)
             member.external_attr = 0o644 << 16
             member.compress_type = zipfile.ZIP_DEFLATED
