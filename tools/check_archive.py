@@ -1,4 +1,4 @@
-"""Check what archives and readers read, with their own validators: cffconvert, CSL, pybtex, RO-Crate.
+"""Check what archives read, with their own validators: cffconvert, CSL, pybtex and RO-Crate.
 
     python tools/check_archive.py FOLDER...
 

@@ -1,7 +1,7 @@
-"""Write what archives read of the project, from pyproject.toml, data/papers and data/headlines.yaml.
+"""Write what archives read of the project, from pyproject.toml, data/papers and the headlines.
 
-CITATION.cff, codemeta.json, .zenodo.json, ro-crate-metadata.json and repro.yaml in the root are never
-edited by hand: ``make metadata`` writes them, and a test compares them with what is written here.
+CITATION.cff, codemeta.json, .zenodo.json, ro-crate-metadata.json and repro.yaml in the root are
+never edited by hand: ``make metadata`` writes them, and a test compares them with what this gives.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Numbers of the book as a manifest ``repro.yaml``, which the independent checker `claims` verifies.
+"""Numbers of the book as ``repro.yaml``, a manifest that the independent checker `claims` verifies.
 
 ``data/headlines.yaml`` names the numbers: an item, the path of the value in what was obtained, and
 how many digits are stated. The digits are those of the reference results. `claims` then looks each
@@ -24,9 +24,7 @@ from ..errors import DataFileError
 from .reference import read_reference, reference_path
 from .schema import Model, Text, load_paper
 
-_HEAD = (
-    "# Written by `dualarm export` or tools/metadata.py; check with `claims verify repro.yaml`.\n"
-)
+_HEAD = "# Written by `dualarm export` or `make metadata`; check with `claims verify repro.yaml`.\n"
 _FILE = "headlines.yaml"
 
 

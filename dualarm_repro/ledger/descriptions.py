@@ -27,7 +27,7 @@ _MESSAGE = "Cite this project for reproduced results, and the documents for what
 _NOBODY = "not named in the source"
 _SPDX = "https://spdx.org/licenses/"
 _CODEMETA = "https://doi.org/10.5063/schema/codemeta-2.0"
-_HEAD = "# Written by tools/metadata.py from pyproject.toml and data/papers; do not edit.\n"
+_HEAD = "# Written by `make metadata` from pyproject.toml and data/papers; do not edit.\n"
 
 
 def citation_cff(project: Project, documents: Iterable[Document]) -> str:
@@ -119,7 +119,7 @@ def schema_org(document: Document) -> dict[str, Any]:
 
 
 def zenodo(project: Project, documents: Iterable[Document]) -> str:
-    """Text of .zenodo.json; the archive holds one licence, that of the code, and notes the other."""
+    """Text of .zenodo.json; the archive knows one licence, that of the code, the other is a note."""
     content = {
         "upload_type": "software",
         "title": project.title,

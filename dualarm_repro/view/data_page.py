@@ -13,7 +13,7 @@ FOLDER = "_static/ledger"
 
 
 def data_page() -> Page:
-    """A table of the files of an export, each with a link that works offline; the zip comes first."""
+    """A table of the files of an export, the zip first, with links that work offline."""
     files = names(schemas())
     rows = "".join(
         f'<tr><td><a href="{FOLDER}/{name}" download>{escape(name)}</a></td>'

@@ -11,6 +11,15 @@ from dualarm_repro.ledger.schema import Document, load_paper
 
 from .toy import YAML, toy_registry
 
+#: Not known to the decoder.
+SIGNS = {
+    r"\textbackslash{}": "\\",
+    r"\textbraceleft{}": "{",
+    r"\textbraceright{}": "}",
+    r"\textasciicircum{}": "^",
+    r"\$": "$",
+}
+
 
 def entries(text):
     return parse_string(text, "bibtex").entries
@@ -18,7 +27,9 @@ def entries(text):
 
 def plain(text):
     """What a TeX reader sees."""
-    return codecs.decode(text, "ulatex").replace("{}", "")
+    for written, sign in SIGNS.items():
+        text = text.replace(written, sign)
+    return codecs.decode(text, "ulatex")
 
 
 def test_result_and_document(tmp_path):
