@@ -119,7 +119,7 @@ def schema_org(document: Document) -> dict[str, Any]:
 
 
 def zenodo(project: Project, documents: Iterable[Document]) -> str:
-    """Text of .zenodo.json; the archive knows one licence, that of the code, the other is a note."""
+    """Text of .zenodo.json; the archive knows one licence, of the code; the other is a note."""
     content = {
         "upload_type": "software",
         "title": project.title,

@@ -40,6 +40,7 @@ _SCHEMA_TEXT = {
     "schemas/paper.json": "JSON Schema of a document's file with its items (data/papers)",
     "schemas/record.json": "JSON Schema of the record of one item",
     "schemas/robot.json": "JSON Schema of a robot file (data/robots)",
+    "schemas/scenario.json": "JSON Schema of a scenario of velocity control (data/scenes)",
     "schemas/scene.json": "JSON Schema of a scene file (data/scenes)",
     "schemas/task.json": "JSON Schema of a task file for `dualarm plan`",
 }

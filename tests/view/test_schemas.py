@@ -15,7 +15,8 @@ from dualarm_repro.view.schemas import schemas
 def kind(path):
     """Name of the schema a data file follows."""
     if path.parent.name == "scenes":
-        return "task" if "scene" in read_yaml(path) else "scene"
+        content = read_yaml(path)
+        return "scenario" if "kind" in content else "task" if "scene" in content else "scene"
     return path.parent.name.removesuffix("s")
 
 
