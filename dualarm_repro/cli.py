@@ -243,7 +243,7 @@ def cite(
 
 @app.command("export")
 def export_ledger(
-    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("ledger"),
+    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
 ) -> None:
     """Write the whole ledger: JSON, CSV, Parquet, citations, schemas, claims, and a zip of all."""
     from .ledger.claims import statements
@@ -251,10 +251,10 @@ def export_ledger(
     from .ledger.publication import publish
     from .view.schemas import schemas
 
-    registry = _registry()
+    registry, stated = _registry(), statements()
     records = [_record(registry, item_id) for item_id in _progress(list(registry.items))]
     documents = [paper.document for paper in registry.papers.values()]
-    files = publish(records, out, project(), documents, schemas(), statements())
+    files = publish(records, out, project(), documents, schemas(), stated)
     _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
 
 

@@ -110,6 +110,16 @@ def test_cffconvert_accepts_the_citation_file(tmp_path):
         assert len(check_archive.wrong_cff(broken)) == 1
 
 
+def test_what_cffconvert_makes_of_it_agrees_with_the_other_files():
+    cffconvert = pytest.importorskip("cffconvert", reason=NEEDS)
+    citation = cffconvert.Citation((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    converted = {".zenodo.json": citation.as_zenodo(), "codemeta.json": citation.as_codemeta()}
+    for name, text in converted.items():
+        ours, theirs = json.loads((ROOT / name).read_text(encoding="utf-8")), json.loads(text)
+        for field in theirs.keys() - {"license", "author"}:  # it knows one licence, and no group
+            assert ours[field] == theirs[field], f"{name}: {field}"
+
+
 def test_the_official_schema_accepts_every_citation(registry):
     if importlib.util.find_spec("commonmeta") is None:
         pytest.skip(NEEDS)

@@ -87,10 +87,3 @@ def test_unwritable_folder(records, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="a folder that can be written"):
         export(records, tmp_path / "file" / "out")
-
-
-def test_every_record_fits_the_schema(registry, monkeypatch):
-    monkeypatch.delenv("DUALARM_CACHE")  # of the real documents, computed once for the suite
-    validator = Draft202012Validator(record_schema())
-    for item_id in registry.items:
-        validator.validate(record(registry, item_id))

@@ -7,6 +7,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from dualarm_repro.datafiles import data_path, read_yaml
+from dualarm_repro.ledger import record
 from dualarm_repro.ledger.publication import names
 from dualarm_repro.view.data_page import FOLDER, data_page
 from dualarm_repro.view.schemas import schemas
@@ -41,6 +42,12 @@ def test_schema_accepts_a_file_and_refuses_a_misspelt_field(path):
     content = json.loads(json.dumps(read_yaml(path)))
     validator.validate(content)
     assert not validator.is_valid({**content, "misspelt": 1})
+
+
+def test_every_record_fits_its_schema(registry):
+    validator = Draft202012Validator(schemas()["record"])
+    for item_id in registry.items:
+        validator.validate(record(registry, item_id))
 
 
 def test_the_page_links_every_file():
