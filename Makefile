@@ -34,8 +34,9 @@ test: $(VENV)/.installed _build/.code  ## run the whole test suite
 verify: $(VENV)/.installed _build/.code  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
 
-results: $(VENV)/.installed _build/.code  ## recompute and rewrite the reference results in data/results
+results: $(VENV)/.installed _build/.code  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update
+	$(BIN)/python tools/metadata.py
 
 metadata: $(VENV)/.installed  ## write CITATION.cff, codemeta, Zenodo, RO-Crate and repro.yaml again
 	$(BIN)/python tools/metadata.py

@@ -246,7 +246,7 @@ def export_ledger(
     out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
 ) -> None:
     """Write the whole ledger: JSON, CSV, Parquet, citations, schemas, claims, and a zip of all."""
-    from .ledger.claims import statements
+    from .ledger.headlines import statements
     from .ledger.project import project
     from .ledger.publication import publish
     from .view.schemas import schemas

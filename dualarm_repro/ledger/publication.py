@@ -12,11 +12,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .claims import Statement, manifest
+from .claims import manifest
 from .crate import NAME as CRATE
 from .crate import Part, crate
 from .descriptions import citation_cff, codemeta
 from .files import to_json, write, write_text
+from .headlines import Statement
 from .ledger_table import ledger_table
 from .project import Project
 from .schema import Document

@@ -10,8 +10,9 @@ import pytest
 import yaml
 
 from dualarm_repro.errors import DataFileError
-from dualarm_repro.ledger import claims, reference
-from dualarm_repro.ledger.claims import Statement, manifest, rounded, statements
+from dualarm_repro.ledger import reference
+from dualarm_repro.ledger.claims import manifest
+from dualarm_repro.ledger.headlines import Statement, headlines, rounded, statements
 from dualarm_repro.ledger.project import project
 from dualarm_repro.ledger.publication import publish
 
@@ -95,7 +96,7 @@ def test_numbers_of_the_book(tmp_path):
     assert {name: papers.count(name) >= 5 for name in papers} == dict.fromkeys(
         ("xue", "qiu", "patent", "pan"), True
     )
-    assert f"{len(claims.headlines())} verified" in said
+    assert f"{len(headlines())} verified" in said
 
 
 def test_manifest_is_plain_yaml():
