@@ -1,8 +1,8 @@
 """Numbers of the book as ``repro.yaml``, a manifest that the independent checker `claims` verifies.
 
-`claims` looks each number up in a file pinned by its SHA-256: in ``data/results`` for the manifest in
-the root, in the newly computed ``ledger.json`` for that of an export. A number is met when the value
-found rounds to the digits stated.
+`claims` looks each number up in a file pinned by its SHA-256: in ``data/results`` for the manifest
+in the root, in the newly computed ``ledger.json`` for that of an export. A number is met when the
+value found rounds to the digits stated.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Numbers that the book states, as ``data/headlines.yaml`` lists them.
 
-A headline names an item, the path of a number in what it obtains, and how many digits are stated. The
-digits are those of the reference results or, where the document prints the number, of the document.
+A headline names an item, the path of a number in what it obtains, and how many digits are stated.
+The digits are those of the reference results or, where the document prints the number, its own.
 """
 
 from __future__ import annotations

@@ -66,6 +66,18 @@ def test_what_is_no_number_is_refused(stated, path):
         stated(f"{{text: t, item: toy.claim_area, path: {path}}}")
 
 
+@pytest.mark.parametrize(("path", "fits"), [("[d, 3]", True), ("[reach, matrices]", False)])
+def test_printed_digits_must_be_printed(tmp_path, path, fits):
+    file = tmp_path / "headlines.yaml"
+    line = f"{{text: t, item: xue.tab01, path: {path}, printed: true}}"
+    file.write_text(f"headlines:\n  - {line}\n")
+    if fits:
+        assert statements(file)[0].reported == "1.225"
+    else:
+        with pytest.raises(DataFileError, match="printed under the same path"):
+            statements(file)
+
+
 @pytest.mark.parametrize(("reported", "passes"), [("2.784", True), ("2.785", False)])
 def test_the_tool_finds_a_wrong_number(tmp_path, reported, passes):
     records = [{"id": "toy.other"}, {"id": "toy.fig", "obtained": {"reach": [1, 2.78424]}}]
