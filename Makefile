@@ -13,7 +13,7 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env book test verify results bench serve lint lock wheel clean
+.PHONY: help env book test verify results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -23,6 +23,7 @@ env: $(VENV)/.installed  ## create the locked environment in .venv
 book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.html
 	$(BIN)/python tools/prerun.py
 	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
+	$(BIN)/dualarm export --out _build/html/_static/ledger
 	$(BIN)/python tools/check_book.py
 
 test: $(VENV)/.installed  ## run the whole test suite
@@ -32,8 +33,18 @@ test: $(VENV)/.installed  ## run the whole test suite
 verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
 
-results: $(VENV)/.installed  ## recompute and rewrite the reference results in data/results
+results: $(VENV)/.installed  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update
+	$(BIN)/python tools/metadata.py
+
+metadata: $(VENV)/.installed  ## write CITATION.cff, codemeta, Zenodo, RO-Crate and repro.yaml again
+	$(BIN)/python tools/metadata.py
+
+claims: $(VENV)/.installed  ## let tools that are not ours check citations, archives and numbers
+	$(BIN)/dualarm export --out _build/ledger
+	$(BIN)/claims verify repro.yaml --policy publication
+	$(BIN)/claims verify _build/ledger/repro.yaml --policy publication
+	$(BIN)/python tools/check_archive.py . _build/ledger
 
 bench: $(VENV)/.bench  ## ratios against peers, measured in one run
 	$(BIN)/python benchmarks/run.py
@@ -45,7 +56,7 @@ lint: $(VENV)/.installed  ## static checks
 	$(BIN)/ruff check .
 
 lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
-	$(UV) pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
+	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
 	$(UV) pip compile pyproject.toml --extra bench -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-bench.lock
 
 wheel: $(VENV)/.installed  ## build a wheel that carries the data files
@@ -62,7 +73,7 @@ $(VENV)/.installed: requirements.lock pyproject.toml | $(UV)
 	test -x $(BIN)/python || $(UV) venv -q --python "$$(command -v $(PYTHON))" $(VENV)
 	$(UV) pip sync -q --python $(BIN)/python --require-hashes requirements.lock \
 	  || { rm -rf $(VENV) && $(PYTHON) -m venv $(VENV) \
-	  && $(BIN)/python -m pip install -q --require-hashes -r requirements.lock; }
+	  && $(BIN)/python -m pip install -q --no-deps --require-hashes -r requirements.lock; }
 	$(UV) pip install -q --python $(BIN)/python --no-deps --no-build-isolation -e .
 	touch $@
 

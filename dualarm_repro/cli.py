@@ -269,6 +269,23 @@ def cite(
         _print_json(found)
 
 
+@app.command("export")
+def export_ledger(
+    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
+) -> None:
+    """Write the whole ledger: JSON, CSV, Parquet, citations, schemas, claims, and a zip of all."""
+    from .ledger.headlines import statements
+    from .ledger.project import project
+    from .ledger.publication import publish
+    from .view.schemas import schemas
+
+    registry, stated = _registry(), statements()
+    records = [_record(registry, item_id) for item_id in _progress(list(registry.items))]
+    documents = [paper.document for paper in registry.papers.values()]
+    files = publish(records, out, project(), documents, schemas(), stated)
+    _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
+
+
 def main() -> None:
     """Entry point: bad input is one line on stderr and exit code 2, a failed check exit code 1."""
     if len(sys.argv) == 1:

@@ -57,14 +57,24 @@ class Document(Model):
     id: Key
     order: int = Field(default=0, description="place in listings")
     type: Literal["article", "inproceedings", "patent", "misc"]
+    language: Text | None = Field(default=None, description="of the text, as a BCP 47 tag")
     title: Text = Field(description="title in English")
     title_original: Text | None = None
     authors: list[Text] = Field(default=[], description="family name, given name")
+    authors_original: list[Text] = Field(
+        default=[], description="the same people in the script of the source, family name first"
+    )
     affiliation: Text | None = None
     journal: Text | None = None
     year: Text | None = None
     note: Text | None = None
     unknown: list[Text] = Field(default=[], description="bibliographic fields the source lacks")
+
+    @model_validator(mode="after")
+    def _same_people(self) -> Document:
+        if self.authors_original and len(self.authors_original) != len(self.authors):
+            raise ValueError("authors_original: one name for each of authors")
+        return self
 
 
 class Assumption(Model):

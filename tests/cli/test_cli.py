@@ -107,6 +107,16 @@ def test_cite(dualarm):
     assert len(json.loads(out)) == 2
 
 
+def test_export_writes_the_ledger(dualarm, tmp_path, records):
+    code, out, _ = dualarm("export", "--out", tmp_path / "all")
+    assert code == 0
+    assert "ledger.zip" in out
+    written = json.loads((tmp_path / "all/ledger.json").read_text())
+    assert [made["id"] for made in written] == [made["id"] for made in records]
+    command = [sys.executable, "-m", "claims", "verify", "repro.yaml"]
+    subprocess.run(command, cwd=tmp_path / "all", check=True, capture_output=True)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -146,7 +156,8 @@ def test_unwritable_folder_leaves_nothing(dualarm, tmp_path):
 def test_help_lists_the_commands(dualarm):
     code, out, _ = dualarm("--help")
     assert code == 0
-    assert all(name in out for name in ("list", "show", "run", "verify", "sensitivity", "cite"))
+    names = ("list", "show", "run", "verify", "sensitivity", "cite", "export")
+    assert all(name in out for name in names)
     code, out, _ = dualarm()
     assert code == 2
     assert "Usage" in out
