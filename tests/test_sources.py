@@ -14,7 +14,7 @@ FILES = {
     "user.py": "from .room import offered\n",
     "absolute.py": "import dualarm_repro.ground\nimport numpy.linalg\n",
     "dotted.py": "from . import ground\nfrom .room import lazy\n",
-    "typed.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .ground import VALUE\n",
+    "typed.py": "import typing\nif typing.TYPE_CHECKING:\n    from .ground import VALUE\n",
     "star.py": "from .ground import *\n",
 }
 

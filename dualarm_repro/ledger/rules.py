@@ -117,11 +117,12 @@ class Rounds(Rule):
     def miss(self, evidence: Evidence) -> float:
         if self.holds(evidence):
             return 0.0
-        gaps = [
-            abs(value - read_number(text)[0]) / max(abs(read_number(text)[0]), read_number(text)[1])
-            for _, text, value in self._pairs(evidence)
-            if not isinstance(value, bool) and isinstance(value, int | float) and isfinite(value)
-        ]
+        gaps = []
+        for _, text, value in self._pairs(evidence):
+            printed, half_unit = read_number(text)
+            number = isinstance(value, int | float) and not isinstance(value, bool)
+            gap = abs(value - printed) if number and isfinite(value) else inf
+            gaps.append(gap / max(abs(printed), half_unit))
         return max(gaps, default=inf)
 
     def expectation(self, evidence: Evidence) -> str:

@@ -85,7 +85,7 @@ def test_a_directed_search_finds_what_draws_miss(make):
     text = YAML.replace(
         "    needs: area\n", "    needs: area\n    search: {starts: 2, evaluations: 60}\n"
     )
-    narrow = [Bounded("area", "area", low=15.8, high=15.99)]
+    narrow = [Bounded("area", "area", low=15.83, high=15.87)]
     assert settled(make(rules=narrow)).verdict == "not-reproduced"
     found = settled(make(text, rules=narrow))
     assert found.verdict == "reproduced-under-assumption"
