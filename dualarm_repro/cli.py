@@ -139,6 +139,7 @@ def verify(
         for entry in report["drifted"]:
             print(f"{entry['id']} drifted: {'; '.join(entry['differences'])}")
         print(f"{report['checked']} checked, {len(report['drifted'])} drifted")
+        print(f"{len(report['compared'])} values compared with a bound or tolerance (see --json)")
     if report["drifted"]:
         raise typer.Exit(1)
 

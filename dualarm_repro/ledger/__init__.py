@@ -4,7 +4,18 @@ from .evaluation import Evaluation, evaluate, prove
 from .record import record
 from .registry import REGISTRY, Registry
 from .result import Assumed, Proof, Result
-from .rules import Adopts, Bounded, Exceeds, Generally, Is, NoOriginal, Role, Rounds, Rule
+from .rules import (
+    Adopts,
+    Bounded,
+    Exceeds,
+    Generally,
+    Is,
+    NoOriginal,
+    Residual,
+    Role,
+    Rounds,
+    Rule,
+)
 from .settled import Settled, settle
 from .shares import Share
 from .study import Study
@@ -23,6 +34,7 @@ __all__ = [
     "NoOriginal",
     "Proof",
     "Registry",
+    "Residual",
     "Result",
     "Role",
     "Rounds",

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..datafiles import data_path
 from ..errors import DataFileError
+from .comparison import Comparison, comparisons
 from .drift import differences
 from .evaluation import evaluate, prove
 from .files import to_json, write_text
@@ -72,6 +73,12 @@ def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
     return json.loads(to_json(found))
 
 
+def declared(registry: Registry, item_id: str) -> list[Comparison]:
+    """Values of an item that are compared otherwise than digit by digit."""
+    checker = registry.checker(item_id)
+    return comparisons(registry.look(item_id), checker.rules if checker else ())
+
+
 def verify(
     registry: Registry,
     item_ids: Iterable[str],
@@ -93,8 +100,9 @@ def verify(
     Returns
     -------
     dict
-        ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``) and ``verdicts``
-        (count per verdict).
+        ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``), ``verdicts`` (count
+        per verdict) and ``compared`` (list of ``{"id", "path", "how"}``: the values that are not
+        compared by digits).
     """
     ids = list(item_ids)
     tasks = ((_outcome, registry.reopen, item_id) for item_id in ids)
@@ -110,14 +118,25 @@ def verify(
             items = {i: kept[i] for i in registry.items if i in kept and i.startswith(f"{paper}.")}
             write_text(reference_path(paper), to_json({"items": items}))
         write_text(costs_path(), to_json({**read_costs(), **seconds}))
+    ways = {item_id: declared(registry, item_id) for item_id in found}
     drifted = [
         {"id": item_id, "differences": lines}
         for item_id, one in found.items()
-        if not update and (lines := differences(reference.get(item_id), one))
+        if not update and (lines := differences(reference.get(item_id), one, ways[item_id]))
+    ]
+    compared = [
+        {"id": item_id, "path": way.path, "how": way.how}
+        for item_id, declared_here in ways.items()
+        for way in declared_here
     ]
     counts = Counter(one["verdict"] for one in found.values())
     verdicts = {str(v): counts[v] for v in Verdict if counts[v]}
-    return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
+    return {
+        "checked": len(found),
+        "drifted": drifted,
+        "verdicts": verdicts,
+        "compared": compared,
+    }
 
 
 def _outcome(reopen: Any, item_id: str) -> tuple[dict[str, Any], float]:

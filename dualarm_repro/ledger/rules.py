@@ -295,6 +295,22 @@ class Exceeds(Rule):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Residual(Bounded):
+    """A number that is zero up to round-off or truncation: at most ``high`` in size.
+
+    Its digits are those of the errors, so `verify` compares it with the bound instead.
+    """
+
+    def __post_init__(self) -> None:
+        if self.low is not None or self.high is None or not 0 < self.high < float("inf"):
+            raise ValueError("a residual needs a positive bound `high` and no other")
+
+    def holds(self, evidence: Evidence) -> bool:
+        value = self.found(evidence)
+        return value is not None and bool(abs(value) <= self.high)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Is(Rule):
     """A boolean, count or text is exactly ``value``, or the printed one at ``to``."""
 

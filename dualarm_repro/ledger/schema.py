@@ -141,6 +141,20 @@ class Search(Model):
     evaluations: int = Field(default=40, gt=0, description="evaluations of each climb")
 
 
+class Tolerance(Model):
+    """How far an ill-conditioned value may move from one processor to another, and why."""
+
+    relative: float | None = Field(default=None, gt=0, le=0.1)
+    absolute: float | None = Field(default=None, gt=0)
+    reason: Text = Field(description="why six digits do not hold, with the spread measured")
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Tolerance:
+        if (self.relative is None) == (self.absolute is None):
+            raise ValueError("give either relative or absolute")
+        return self
+
+
 class Item(Model):
     """One printed figure, table, equation or claim."""
 
@@ -178,6 +192,10 @@ class Item(Model):
     )
     seek: Text | None = Field(
         default=None, description="which witness is still to be sought, and where"
+    )
+    tolerances: dict[Text, Tolerance] = Field(
+        default={},
+        description="obtained values `verify` compares less closely; * is any one key or index",
     )
     notes: Text | None = None
     pending: Text | None = Field(

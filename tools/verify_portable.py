@@ -1,0 +1,160 @@
+"""Verify that results hold on any processor, on this one: run them with other machine code.
+
+Compiled kernels, numpy, OpenBLAS and the C library choose their code by the processor they find.
+Each setting below takes one of these choices away, and `everything` all of them. Every item is then
+computed in a process of its own and compared with data/results, as `dualarm verify` does.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from machine_code import Setting, probe, settings
+
+from dualarm_repro.ledger.drift import differences
+from dualarm_repro.ledger.printed import leaves
+from dualarm_repro.ledger.reference import declared, outcome, read_reference
+from dualarm_repro.papers import load
+
+ROOT = Path(__file__).resolve().parents[1]
+COMBINED = "everything"
+SEED = 20200344
+#: Items of the short form, besides those that declare a tolerance.
+SAMPLE = 20
+#: Values that move by more than this, relative, are worth a look even where nothing drifts.
+SPREAD = 1e-8
+
+
+def compute(item_ids: Sequence[str]) -> dict[str, Any]:
+    """In a process under a setting: the machine code in use and the outcome of each item."""
+    registry = load()
+    return {"machine": probe(), "items": {key: outcome(registry, key) for key in item_ids}}
+
+
+def run(setting: Setting, arguments: Sequence[str], scratch: Path) -> subprocess.CompletedProcess:
+    """Run Python under a setting, without the records that the user's cache may hold."""
+    own = {
+        "NUMBA_CACHE_DIR": str(scratch / setting.numba_target),
+        "DUALARM_CACHE": str(scratch / "records" / setting.name),
+        **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+    }
+    environment = {**os.environ, **own, **setting.environment}
+    return subprocess.run([sys.executable, *arguments], env=environment, cwd=ROOT, check=False)
+
+
+def outcomes(setting: Setting, item_ids: Sequence[str], scratch: Path) -> dict[str, Any]:
+    """Outcomes of items under a setting; ``machine`` says what the process really used.
+
+    Raises
+    ------
+    RuntimeError
+        The process failed.
+    """
+    made = scratch / f"{setting.name}.json"
+    done = run(setting, [__file__, "--compute", str(made), *item_ids], scratch)
+    if done.returncode or not made.is_file():
+        raise RuntimeError(f"{setting.name}: the process ended with {done.returncode}")
+    return json.loads(made.read_text(encoding="utf-8"))
+
+
+def compare(found: dict[str, Any]) -> tuple[list[str], list[str]]:
+    """Lines about items that drifted, and about verdicts that changed."""
+    registry, drifted, changed = load(), [], []
+    reference = {
+        key: part for paper in registry.papers for key, part in read_reference(paper).items()
+    }
+    for item_id, made in found.items():
+        kept = reference.get(item_id)
+        if lines := differences(kept, made, declared(registry, item_id)):
+            drifted.append(f"{item_id} drifted: {'; '.join(lines)}")
+        if kept and kept["verdict"] != made["verdict"]:
+            changed.append(f"{item_id}: verdict {kept['verdict']} became {made['verdict']}")
+    return drifted, changed
+
+
+def spreads(runs: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    """Every value that differs between settings, numbers by more than ``SPREAD`` relative."""
+    table: dict[tuple[Any, ...], dict[str, Any]] = {}
+    for name, items in runs.items():
+        for path, leaf in leaves(items):
+            table.setdefault(path, {})[name] = leaf
+    rows = []
+    for path, row in table.items():
+        size = _spread(list(row.values())) if len(row) == len(runs) else float("inf")
+        if size > SPREAD:
+            rows.append({"path": ".".join(map(str, path)), "relative": size, "values": row})
+    return sorted(rows, key=lambda row: -row["relative"])
+
+
+def _spread(values: list[Any]) -> float:
+    if all(value == values[0] for value in values):
+        return 0.0
+    if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
+        return float("inf")
+    return (max(values) - min(values)) / max(map(abs, values))
+
+
+def sample(seed: int = SEED) -> list[str]:
+    """Items of the short form: all that declare a tolerance, and a seeded share of the others."""
+    registry = load()
+    delicate = [key for key, item in registry.items.items() if item.tolerances]
+    others = sorted(set(registry.items) - set(delicate))
+    return delicate + random.Random(seed).sample(others, min(SAMPLE, len(others)))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Compare under each setting; 1 if anything drifts, or a setting has no effect."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("ids", nargs="*", help="items; default: all, or the sample of --short")
+    parser.add_argument("--short", action="store_true", help=f"only `{COMBINED}`, on a sample")
+    parser.add_argument("--setting", action="append", help="only this one; may be repeated")
+    parser.add_argument("--spread", type=Path, help="write the values that move to this JSON file")
+    parser.add_argument("--tests", action="store_true", help=f"then the tests under `{COMBINED}`")
+    parser.add_argument("--compute", type=Path, help=argparse.SUPPRESS)
+    given = parser.parse_args(arguments)
+    if given.compute:
+        given.compute.write_text(json.dumps(compute(given.ids)), encoding="utf-8")
+        return 0
+    chosen = {setting.name: setting for setting in settings()}
+    wanted = [COMBINED] if given.short else given.setting or list(chosen)
+    if unknown := set(wanted) - set(chosen):
+        parser.error(f"no setting {sorted(unknown)} here; there are {', '.join(chosen)}")
+    ids = given.ids or (sample() if given.short else list(load().items))
+    failed, runs = False, {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name in wanted:
+            failed |= not _report(chosen[name], ids, Path(folder), runs)
+        if given.tests:
+            failed |= bool(run(chosen[COMBINED], ["-m", "pytest"], Path(folder)).returncode)
+    if given.spread:
+        given.spread.write_text(json.dumps(spreads(runs), indent=1) + "\n", encoding="utf-8")
+    return int(failed)
+
+
+def _report(setting: Setting, ids: Sequence[str], scratch: Path, runs: dict[str, Any]) -> bool:
+    """Print one setting; whether it took effect and nothing moved."""
+    made = outcomes(setting, ids, scratch)
+    runs[setting.name] = made["items"]
+    without_effect = setting.without_effect(made["machine"])
+    drifted, changed = compare(made["items"])
+    for line in [*without_effect, *drifted, *changed]:
+        print(f"  {setting.name}: {line}")
+    print(
+        f"{setting.name:14s} {len(made['items']):4d} checked, {len(drifted):3d} drifted, "
+        f"{len(changed):3d} verdicts changed",
+        flush=True,
+    )
+    return not (without_effect or drifted or changed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
