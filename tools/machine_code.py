@@ -17,6 +17,8 @@ _CORE_SYMBOLS = ("scipy_openblas_get_corename64_", "scipy_openblas_get_corename"
 #: Features by which the C library selects its elementary functions.
 _LIBM = "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F"
 _BLAS = "OPENBLAS_CORETYPE"
+#: Environment variable: compile the kernels of a process with fused multiply-add.
+FUSED = "VERIFY_PORTABLE_FUSED"
 
 
 @dataclass(frozen=True)
@@ -28,9 +30,10 @@ class Setting:
     changes: dict[str, Any] = field(default_factory=dict)
 
     @property
-    def numba_target(self) -> str:
-        """Names the folder of compiled kernels, which differ with the target."""
-        return self.environment.get("NUMBA_CPU_NAME", "host")
+    def kernels(self) -> str:
+        """Names the folder of compiled kernels, which differ with target and fusing."""
+        target = self.environment.get("NUMBA_CPU_NAME", "host")
+        return f"{target}-fused" if FUSED in self.environment else target
 
     def without_effect(self, machine: dict[str, Any]) -> list[str]:
         """What the process still ran as if nothing had been set; empty if all took effect."""
@@ -49,6 +52,7 @@ def probe() -> dict[str, Any]:
     triple, cpu, features = cpu_target.target_context.codegen().magic_tuple()
     return {
         "numba": {"triple": triple, "cpu": cpu, "fma": "+fma" in features.split(",")},
+        "fused": _fuses(),
         "numpy": _numpy_dispatch(),
         "blas": _blas_cores(),
         "libm": _libm_digest(),
@@ -73,7 +77,33 @@ def settings() -> list[Setting]:
         {key: value for part in parts for key, value in part.environment.items()},
         {key: value for part in parts for key, value in part.changes.items()},
     )
-    return [Setting("nominal"), *parts, together]
+    made = [Setting("nominal"), *parts, together]
+    if here["numba"]["fma"]:
+        made.append(Setting("fused", {FUSED: "1"}, {"fused": here["fused"]}))
+    return made
+
+
+def fuse_kernels() -> None:
+    """Let every kernel that is compiled from now on round once in a*b + c, as some compilers do."""
+    import numba
+
+    plain = numba.njit
+
+    def njit(*arguments: Any, **options: Any) -> Any:
+        if arguments and callable(arguments[0]):
+            return plain(fastmath={"contract"})(arguments[0])
+        return plain(*arguments, **{"fastmath": {"contract"}, **options})
+
+    numba.njit = njit
+
+
+def _fuses() -> bool:
+    """Whether a kernel compiled here rounds a*b + c once: then x*x - fl(x*x) is not zero."""
+    import numba
+
+    kernel = numba.njit(lambda a, b: a * a + b)
+    x = 1.0 + 2.0**-30
+    return kernel(x, -(x * x)) != 0.0
 
 
 def _numpy_dispatch() -> list[str]:

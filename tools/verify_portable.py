@@ -1,8 +1,9 @@
 """Verify that results hold on any processor, on this one: run them with other machine code.
 
 Compiled kernels, numpy, OpenBLAS and the C library choose their code by the processor they find.
-Each setting below takes one of these choices away, and `everything` all of them. Every item is then
-computed in a process of its own and compared with data/results, as `dualarm verify` does.
+Each setting takes one of these choices away, `everything` all of them, and `fused` lets the kernels
+fuse multiplications with additions. Items are computed in a process of their own and compared with
+data/results, as `dualarm verify` does. ``--spread`` lists what moves at all.
 """
 
 from __future__ import annotations
@@ -18,14 +19,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from machine_code import Setting, probe, settings
+from machine_code import Setting, settings
 
 from dualarm_repro.ledger.drift import differences
 from dualarm_repro.ledger.printed import leaves
-from dualarm_repro.ledger.reference import declared, outcome, read_reference
+from dualarm_repro.ledger.reference import declared, read_reference
 from dualarm_repro.papers import load
 
 ROOT = Path(__file__).resolve().parents[1]
+_OUTCOMES = Path(__file__).with_name("portable_outcomes.py")
 COMBINED = "everything"
 SEED = 20200344
 #: Items of the short form, besides those that declare a tolerance.
@@ -34,16 +36,10 @@ SAMPLE = 20
 SPREAD = 1e-8
 
 
-def compute(item_ids: Sequence[str]) -> dict[str, Any]:
-    """In a process under a setting: the machine code in use and the outcome of each item."""
-    registry = load()
-    return {"machine": probe(), "items": {key: outcome(registry, key) for key in item_ids}}
-
-
 def run(setting: Setting, arguments: Sequence[str], scratch: Path) -> subprocess.CompletedProcess:
     """Run Python under a setting, without the records that the user's cache may hold."""
     own = {
-        "NUMBA_CACHE_DIR": str(scratch / setting.numba_target),
+        "NUMBA_CACHE_DIR": str(scratch / setting.kernels),
         "DUALARM_CACHE": str(scratch / "records" / setting.name),
         **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
     }
@@ -60,7 +56,7 @@ def outcomes(setting: Setting, item_ids: Sequence[str], scratch: Path) -> dict[s
         The process failed.
     """
     made = scratch / f"{setting.name}.json"
-    done = run(setting, [__file__, "--compute", str(made), *item_ids], scratch)
+    done = run(setting, [str(_OUTCOMES), str(made), *item_ids], scratch)
     if done.returncode or not made.is_file():
         raise RuntimeError(f"{setting.name}: the process ended with {done.returncode}")
     return json.loads(made.read_text(encoding="utf-8"))
@@ -119,11 +115,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--setting", action="append", help="only this one; may be repeated")
     parser.add_argument("--spread", type=Path, help="write the values that move to this JSON file")
     parser.add_argument("--tests", action="store_true", help=f"then the tests under `{COMBINED}`")
-    parser.add_argument("--compute", type=Path, help=argparse.SUPPRESS)
     given = parser.parse_args(arguments)
-    if given.compute:
-        given.compute.write_text(json.dumps(compute(given.ids)), encoding="utf-8")
-        return 0
     chosen = {setting.name: setting for setting in settings()}
     wanted = [COMBINED] if given.short else given.setting or list(chosen)
     if unknown := set(wanted) - set(chosen):
