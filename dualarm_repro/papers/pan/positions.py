@@ -17,6 +17,8 @@ from .scenario import Job, Measure
 
 #: Largest manipulability of the bars in the scenes [m^3].
 FULL_SCALE = 0.7
+#: Scores that differ by less, relative, are equal: the job is symmetric, and so are its extremes.
+_EQUAL = 1e-9
 #: Rule to a score (P,) from manipulabilities (P, 3, N) and system measure (P, N).
 _SCORES = {
     "lowest_welder": lambda w, system: 1.0 / w[:, WELDER].max(axis=1),
@@ -72,7 +74,16 @@ def extreme_position(job: Job, measure: Measure, box: Box, rule: str) -> Optimum
     points = grid_points(np.array(box), SPACING)
     values = np.concatenate([score(block) for block in np.array_split(points, 64)])
     cells = best_cells(points, values, STARTS, SPACING)
-    return refined(score, cells, np.array(box), 0.5 * SPACING, 1e-3)
+    ends = [refined(score, cell[None], np.array(box), 0.5 * SPACING, 1e-3) for cell in cells]
+    return _first_of_equals(ends) if ends else refined(score, cells, np.array(box), SPACING, 1e-3)
+
+
+def _first_of_equals(ends: list[Optimum]) -> Optimum:
+    """The best end. Of mirror images, which differ by round-off alone, that of largest x, y, z."""
+    top = max(end.fitness for end in ends)
+    equals = [end for end in ends if end.fitness >= (1.0 - _EQUAL) * top]
+    best = max(equals, key=lambda end: tuple(end.position))
+    return best._replace(evaluations=sum(end.evaluations for end in ends))
 
 
 def status_name(jobs: Jobs) -> str:
