@@ -22,12 +22,15 @@ from typing import Any
 from machine_code import Setting, settings
 
 from dualarm_repro.ledger.drift import differences
+from dualarm_repro.ledger.files import to_json, write_text
 from dualarm_repro.ledger.printed import leaves
 from dualarm_repro.ledger.reference import declared, read_reference
 from dualarm_repro.papers import load
 
 ROOT = Path(__file__).resolve().parents[1]
 _OUTCOMES = Path(__file__).with_name("portable_outcomes.py")
+#: The tests of this tool itself need a process without settings.
+_TESTS = ("-m", "pytest", "--ignore", "tests/book/test_verify_portable.py")
 COMBINED = "everything"
 SEED = 20200344
 #: Items of the short form, besides those that declare a tolerance.
@@ -126,9 +129,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for name in wanted:
             failed |= not _report(chosen[name], ids, Path(folder), runs)
         if given.tests:
-            failed |= bool(run(chosen[COMBINED], ["-m", "pytest"], Path(folder)).returncode)
+            failed |= bool(run(chosen[COMBINED], _TESTS, Path(folder)).returncode)
     if given.spread:
-        given.spread.write_text(json.dumps(spreads(runs), indent=1) + "\n", encoding="utf-8")
+        write_text(given.spread, to_json(spreads(runs)))
     return int(failed)
 
 
