@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from enum import StrEnum
@@ -67,9 +66,11 @@ def list_items(
         return
     from rich.table import Table
 
+    from .view.terminal import verdict_text
+
     table = Table("id", "kind", "verdict", "title", box=None)
     for made in records:
-        table.add_row(made["id"], made["kind"], _verdict(made), made["title"])
+        table.add_row(made["id"], made["kind"], verdict_text(made), made["title"])
     _console().print(table)
 
 
@@ -165,7 +166,9 @@ def sensitivity(
     if as_json:
         _print_json({"id": item_id, "robustness": found})
     else:
-        print(f"{item_id}: {_robustness_line(found)}")
+        from .view.terminal import robustness_line
+
+        print(f"{item_id}: {robustness_line(found)}")
 
 
 @app.command()
@@ -340,6 +343,12 @@ def _console(stderr: bool = False) -> Console:
     return Console(width=width, highlight=False, markup=False, stderr=stderr)
 
 
+def _describe(made: dict[str, Any]) -> None:
+    from .view.terminal import describe
+
+    print("\n".join(describe(made)))
+
+
 def _json(value: Any) -> str:
     from .ledger.files import to_json
 
@@ -348,83 +357,6 @@ def _json(value: Any) -> str:
 
 def _print_json(value: Any) -> None:
     print(_json(value), end="")
-
-
-def _describe(made: dict[str, Any]) -> None:
-    """Print a record for a reader."""
-    print(f"{made['id']}  {made['title']}  [{made['kind']}, {made['place']}]")
-    print(f"verdict: {_verdict(made)}" + (f" ({made['change']})" if made["change"] else ""))
-    if made["decided_by"]:
-        print(f"  no original in the source; decided by the statement {made['decided_by']}")
-    if made["pending"]:
-        print(f"pending: {made['pending']}")
-    if made["printed"] is not None:
-        print(f"printed: {json.dumps(made['printed'], ensure_ascii=False)}")
-    if made["caption"]:
-        print(made["caption"])
-    for check in made["checks"]:
-        found = json.dumps(check["obtained"], ensure_ascii=False)
-        print(f"  {check['outcome']}: {check['label']}: obtained {found}, "
-              f"expected {check['expected']}")  # fmt: skip
-    for name, value in (made["measured"] or {}).items():
-        print(f"  measured: {name} = {value}")
-    for entry in made["witnesses"]:
-        values = (
-            json.dumps(entry["values"], ensure_ascii=False) if entry["values"] else "as declared"
-        )
-        print(f"  witness ({entry['choice']}): {entry['verdict']} with {values}")
-    for line in _search_lines(made):
-        print(f"  {line}")
-    for name, entry in made["thresholds"].items():
-        print(f"  threshold {name} = {entry['value']:g}: {entry['reason']}")
-    for kind in ("assumptions", "context"):
-        for entry in made[kind]:
-            word = kind.removesuffix("s")
-            print(f"  {word} {entry['id']}: {entry['statement']} ({entry['value']})")
-    for entry in made["errata"]:
-        proof = entry["proof"]
-        proved = entry.get("no_proof") if proof is None else _proof_line(proof)
-        print(f"  erratum {entry['id']}: {entry['problem']} [{proved}]")
-    for datum in made["missing"]:
-        print(f"  not printed: {datum}")
-    print(f"  robustness: {_robustness_line(made['robustness'], made['draws'])}")
-    if code := made["code"]:
-        print(f"  code: {code['file']}:{code['line']} {code['function']}; page {made['page']}")
-
-
-def _search_lines(made: dict[str, Any]) -> list[str]:
-    from .view.card import search_lines
-
-    return search_lines(made)
-
-
-def _verdict(made: dict[str, Any]) -> str:
-    """The verdict, with the share of the plausible choices that meet print where it has one."""
-    found = made["robustness"]
-    if found is None or made["verdict"] != "reproduced-under-assumption":
-        return made["verdict"]
-    return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
-
-
-def _proof_line(proof: dict[str, Any]) -> str:
-    return f"{'proved' if proof['holds'] else 'PROOF FAILS'}: {proof['statement']}"
-
-
-def _robustness_line(found: dict[str, Any] | None, draws: str = "none") -> str:
-    if found is None:
-        return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
-    low, high = found["meets_print"]["interval"]
-    text = (
-        f"print is met in {found['meets_print']['share']:.1%} of {found['samples']} draws "
-        f"({low:.1%}-{high:.1%})"
-    )
-    if found["influence"]:
-        name, index = next(iter(found["influence"].items()))
-        text += f"; most influential: {name} ({index:.2f})"
-    flip = found["flip"]
-    if flip is None:
-        return f"{text}; no single change within the plausible values flips it"
-    return f"{text}; flips at {flip['assumption']} = {flip['value']} (nominal {flip['nominal']})"
 
 
 if __name__ == "__main__":

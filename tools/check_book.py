@@ -169,8 +169,8 @@ def violations(root: Path) -> list[str]:
     """Everything that is wrong with the book built below ``root``."""
     from dualarm_repro.ledger import record
     from dualarm_repro.papers import load
-    from dualarm_repro.view.card import short
     from dualarm_repro.view.overview import verdict_counts
+    from dualarm_repro.view.wording import short
 
     registry, book, html = load(), root / "book", root / "_build" / "html"
     pages = read_pages(html)

@@ -7,8 +7,6 @@ from .result import Assumed, Proof, Result
 from .rules import (
     Adopts,
     Bounded,
-    Exceeds,
-    Generally,
     Is,
     NoOriginal,
     Residual,
@@ -18,6 +16,7 @@ from .rules import (
 )
 from .settled import Settled, settle
 from .shares import Share
+from .statistical_rules import Exceeds, Generally
 from .study import Study
 from .verdict import MEANING, Verdict
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from html import escape
 from io import BytesIO
@@ -12,9 +11,7 @@ from ..ledger.verdict import MEANING
 from .badge import badge, interval, percent
 from .firmness import firmness_svg
 from .style import BLACK, house_style
-
-_DIGITS = 6
-
+from .wording import search_lines, short
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 250_000
@@ -102,21 +99,6 @@ def card_html(made: dict[str, Any], root: str = "") -> str:
     return "".join(parts)
 
 
-def search_lines(made: dict[str, Any]) -> list[str]:
-    """How a witness was sought where none was found, and which is still to be sought."""
-    lines, found = [], made["search"]
-    if found:
-        nearest = found["nearest"]
-        how = "directed climbs and draws" if found["directed"] else "draws only, no directed search"
-        lines.append(
-            f"{how}: {found['evaluations']} evaluations; the nearest choice ({nearest['choice']}) "
-            f"misses by {short(nearest['miss'])} of what is printed or bounded."
-        )
-    if made["seek"]:
-        lines.append(f"Still to be sought: {made['seek']}")
-    return lines
-
-
 def _witness(entry: dict[str, Any]) -> str:
     values = short(entry["values"]) if entry["values"] else "the values as declared"
     return f"<b>{escape(entry['verdict'])}</b> ({escape(entry['choice'])}): {escape(values)}"
@@ -159,19 +141,6 @@ def card_figure(made: dict[str, Any]) -> Any:
         table.set_fontsize(8)
         table.auto_set_column_width(list(range(len(header))))
     return figure
-
-
-def short(value: Any) -> str:
-    """A value on one line, floats to six significant digits."""
-    if isinstance(value, float):
-        return f"{value:.{_DIGITS}g}"
-    if isinstance(value, list | tuple):
-        return "(" + ", ".join(short(part) for part in value) + ")"
-    if isinstance(value, dict):
-        return "; ".join(f"{key}: {short(part)}" for key, part in value.items())
-    if value is None:
-        return "-"
-    return value if isinstance(value, str) else json.dumps(value)
 
 
 def robustness_text(found: dict[str, Any]) -> str:

@@ -11,9 +11,10 @@ from dualarm_repro.arms import load_arm
 from dualarm_repro.ledger import MEANING, Verdict
 from dualarm_repro.papers import show
 from dualarm_repro.view.badge import SIGN, badge
-from dualarm_repro.view.card import card_html, head_html, short
+from dualarm_repro.view.card import card_html, head_html
 from dualarm_repro.view.overview import counts_page, ledger_page, verdict_counts
 from dualarm_repro.view.scene3d import Scene3D
+from dualarm_repro.view.wording import short
 
 
 def test_every_verdict_has_meaning_sign_and_badge():
