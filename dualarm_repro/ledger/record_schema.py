@@ -29,6 +29,36 @@ class RecordCheck(_Open):
     expected: Any = Field(description="what the rule asks for, in words")
     obtained: Any
     holds: bool | None
+    outcome: Literal["holds", "fails", "open"]
+
+
+class RecordWitness(_Open):
+    """A choice of what is not printed, with the verdict it gives."""
+
+    choice: str
+    verdict: str
+    values: dict[str, Any] = Field(description="changed assumptions by id")
+
+
+class RecordPlace(_Open):
+    """Where a function is written."""
+
+    file: str
+    function: str
+    line: int | None
+
+
+class RecordCode(RecordPlace):
+    """Where the checker is written, and the function that draws its figure."""
+
+    figure: RecordPlace | None
+
+
+class RecordShare(_Open):
+    """A share with its 95 % interval."""
+
+    share: float = Field(ge=0, le=1)
+    interval: list[float]
 
 
 class RecordAssumption(_Open):
@@ -64,7 +94,11 @@ class RecordRobustness(_Open):
     holds: float = Field(ge=0, le=1, description="share of the draws")
     samples: int = Field(ge=0)
     interval: list[float] | None = Field(default=None, description="of the share, 95 %")
+    meets_print: RecordShare = Field(description="draws in which print is met")
     flip: dict[str, Any] | None = Field(default=None, description="smallest change that turns it")
+    influence: dict[str, float] = Field(
+        description="first-order index of each assumption whose influence is beyond chance"
+    )
 
 
 class Record(_Open):
@@ -81,11 +115,21 @@ class Record(_Open):
     obtained: Any = Field(description="computed values by name")
     verdict: Verdict
     checks: list[RecordCheck]
+    scope: Literal["run", "general"]
+    decided_by: str | None = Field(description="statement that decides an item without original")
+    witnesses: list[RecordWitness]
+    search: dict[str, Any] | None = Field(description="how a witness was sought")
+    seek: str | None = Field(description="which witness is still to be sought")
     assumptions: list[RecordAssumption]
+    context: list[RecordAssumption]
     errata: list[RecordErratum]
     missing: list[str] = Field(description="data it depends on that is not printed")
     notes: str | None
     robustness: RecordRobustness | None
+    draws: str = Field(description="`none` where nothing varies, else the status of the draws")
+    code: RecordCode | None
+    page: str | None
+    url: str | None
 
 
 def record_schema() -> dict[str, Any]:

@@ -299,6 +299,13 @@ class NoOriginal(Rule):
 
 
 def bound(limit: float | str | None, absent: float, thresholds: Mapping[str, float]) -> float:
+    """A limit as a number: itself, the threshold that it names, or ``absent`` where there is none.
+
+    Raises
+    ------
+    LedgerError
+        The item declares no threshold of that name.
+    """
     if isinstance(limit, str):
         if limit not in thresholds:
             raise LedgerError(f"no threshold named {limit!r} is declared for the item")

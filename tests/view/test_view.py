@@ -32,8 +32,10 @@ def test_card_escapes_text():
     made = {
         "id": "toy.x", "verdict": "reproduced", "title": "a < b", "kind": "claim", "place": "1",
         "pending": None, "change": None, "measured": None, "missing": ["<script>"], "notes": None,
-        "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True}],
-        "assumptions": [], "errata": [], "robustness": None,
+        "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True,
+                    "outcome": "holds"}],
+        "assumptions": [], "errata": [], "robustness": None, "context": [], "witnesses": [],
+        "search": None, "seek": None, "thresholds": {}, "decided_by": None, "code": None,
     }  # fmt: skip
     html = head_html(made) + card_html(made)
     assert "<script>" not in html
@@ -44,8 +46,8 @@ def test_card_escapes_text():
 def test_page_of_an_item():
     html = show("xue.fig02").html
     assert 'id="xue.fig02"' in html
-    assert re.search(r'<img alt="[^"]{30,}" src="data:image/png;base64,', html)
-    assert "verdict-undecidable" in html
+    assert re.search(r'<img alt="[^"]{30,}" src="data:image/svg\+xml;base64,', html)
+    assert "verdict-regenerated" in html
     assert "http" not in re.sub(r"base64,[^\"]*", "", html)
 
 
