@@ -179,15 +179,15 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
             "The QP takes constraints into account that the pseudo-inverse cannot express: of "
             f"{len(counted)} random tasks the pseudo-inverse leaves a joint range in {leave:.0%} "
             f"and collides in {counted['collides'].mean():.1%}. A whole step takes "
-            f"{steps['qp']:.0f} operations with the QP and {steps['network']:.0f} with the network, "
-            f"kinematics and distances included: {period:.1%} of a period of {1e3 * dt:g} ms at "
-            f"{assumed['operation_rate']:.0e} operations a second."
+            f"{steps['qp']:.0f} operations with the QP and {steps['network']:.0f} with the "
+            f"network, kinematics and distances included: {period:.1%} of a period of "
+            f"{1e3 * dt:g} ms at {assumed['operation_rate']:.0e} operations a second."
         ),
     )
 
 
 def _three(scenario: Frozen, settings: Settings, dt: float) -> tuple[Motion, Motion, Motion]:
-    """Motions by the pseudo-inverse, by the QP (the task yields where it has to), by the network."""
+    """Motions by the pseudo-inverse, by the QP with slack, and by the network."""
     arguments = (scenario.system, scenario.circles, scenario.q0, settings, NetworkSettings())
     return (
         run(scenario, pseudo_inverse(settings), dt),
@@ -208,7 +208,7 @@ def _changed(scenario: Frozen, settings: Settings, motion: Motion) -> np.ndarray
 
 
 @memo(64)
-def _step_operations(settings: Settings) -> dict[str, int]:
+def _step_operations(settings: Settings) -> dict[str, float]:
     """Operations of one whole step of each solver where most rows are active."""
     scenario = frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)

@@ -39,33 +39,32 @@ def busiest(count: int) -> list[Problem]:
     return problems[start : start + count]
 
 
-def exact_operations(p: Problem) -> int:
+def exact_operations(p: Problem, function_cost: float = 1.0) -> float:
     """The dual active-set method from nothing to the minimiser."""
-    return Instrument().count(least_distance, *p.parts)
+    return Instrument().count(least_distance, *p.parts, function_cost=function_cost)
 
 
-def pseudo_inverse_operations(p: Problem) -> int:
+def pseudo_inverse_operations(p: Problem) -> float:
     """J^+ dr/dt by the Cholesky factor of J J^T, as the saddle point with the identity."""
     return Instrument().count(
         solve_saddle, np.eye(p.size), p.A.copy(), np.concatenate([p.target, p.b])
     )
 
 
-def network_operations(p: Problem, network: NetworkSettings, y: np.ndarray) -> int:
-    """One evaluation of the state derivative with the step that follows."""
-    rate, still = np.empty(len(y)), np.zeros(len(y))
-    counted = Instrument().count(
-        network_rate, network.numbers(), 1.0, still, *p.parts, y.copy(), rate
-    )
-    return counted + len(y)
+def network_operations(p: Problem, network: NetworkSettings, function_cost: float = 1.0) -> float:
+    """One evaluation of the state derivative at zero, with the step that follows."""
+    size = p.size + len(p.b)
+    y, rate, still = np.zeros(size), np.empty(size), np.zeros(size)
+    arguments = (network.numbers(), 1.0, still, *p.parts, y, rate)
+    return Instrument().count(network_rate, *arguments, function_cost=function_cost) + size
 
 
-def primal_dual_operations(p: Problem) -> int:
+def primal_dual_operations(p: Problem) -> float:
     """One iteration of the earlier network."""
     return Instrument().count(iterate, *p.parts, np.zeros(p.size + len(p.b) + len(p.h)), 1, 0.0)
 
 
-def control_operations(scenario: Frozen, settings: Settings, q: np.ndarray, t: float) -> int:
+def control_operations(scenario: Frozen, settings: Settings, q: np.ndarray, t: float) -> float:
     """One whole step of the exact controller: kinematics, distances, rows, minimiser, check."""
     system, numbers = scenario.system, settings.numbers()
     buffers = make_buffers(system.arrays, ROWS[numbers.form])
@@ -77,7 +76,7 @@ def control_operations(scenario: Frozen, settings: Settings, q: np.ndarray, t: f
 
 def network_control_operations(
     scenario: Frozen, settings: Settings, q: np.ndarray, t: float, y: np.ndarray
-) -> int:
+) -> float:
     """One whole step of the network at a fixed rate."""
     system, numbers = scenario.system, settings.numbers()
     buffers, network = make_buffers(system.arrays, ROWS[numbers.form]), NetworkSettings()

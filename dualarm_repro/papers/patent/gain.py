@@ -18,6 +18,7 @@ from .penalised import code_error, sample_problem, state_with_error
 
 checks = partial(REGISTRY.checks, page="patent/network")
 GAINS = (1.0, 10.0, 80.0)
+_KINDS = ("growing", "start", "ceiling")
 START = 0.1  # size of the error at the start of a decay
 HORIZON = 6.0  # [s] after which gamma = 1 has reached most of its ceiling
 
@@ -38,9 +39,7 @@ def growing_gain(assumed: Assumed) -> Result:
     threshold, own = assumed["convergence_threshold"], assumed["gain"]
     activation, rival = assumed["activation"], assumed["compared_gain"]
     curves = {
-        (g, kind): _decay(activation, g, kind)
-        for g in sorted({*GAINS, own})
-        for kind in ("growing", "start", "ceiling")
+        (g, kind): _decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
     }
     found = {key: _settled(errors, threshold) for key, errors in curves.items()}
     ceiling = gain_ceiling(activation)
@@ -64,12 +63,9 @@ def growing_gain(assumed: Assumed) -> Result:
             "ceiling": ceiling,
         },
         table=pd.DataFrame(
-            [
-                (g, *(found[g, kind] for kind in ("growing", "start", "ceiling")))
-                for g in sorted({*GAINS, own})
-            ],
+            [(g, *(found[g, kind] for kind in _KINDS)) for g in sorted({*GAINS, own})],
             columns=["gamma [1/s]", "growing [s]", "constant gamma [s]", "constant ceiling [s]"],
-        ),  # fmt: skip
+        ),
         caption=(
             f"From an error of {START:g} the network of fixed step is below {threshold:g} for good "
             f"after {_text(found[own, 'growing'])} with the growing gain (gamma = {own:g}, "

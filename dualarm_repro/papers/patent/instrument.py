@@ -27,14 +27,16 @@ class Instrument:
     Attributes
     ----------
     operations : int
-        Additions, subtractions, multiplications, divisions, powers, roots and elementary functions
-        of real numbers so far, one each; indices are not counted.
+        Additions, subtractions, multiplications, divisions and powers of real numbers so far;
+        indices are not counted.
+    functions : int
+        Roots and elementary functions.
     returned : list of str
         Names of the functions in the order of their returns.
     """
 
     def __init__(self) -> None:
-        self.operations = 0
+        self.operations = self.functions = 0
         self.returned: list[str] = []
         self._twins: dict[Callable[..., Any], Callable[..., Any]] = {}
 
@@ -54,15 +56,11 @@ class Instrument:
                     scope[name] = self.twin(function.__globals__[name])
         return self._twins[function]
 
-    def count(self, kernel: Any, *arguments: Any) -> int:
-        """Operations of one call."""
-        before = self.operations
+    def count(self, kernel: Any, *arguments: Any, function_cost: float = 1.0) -> float:
+        """Operations of one call, a function counted as so many."""
+        before = self.operations + function_cost * self.functions
         self.twin(kernel)(*arguments)
-        return self.operations - before
-
-    def note(self, name: str) -> None:
-        """Note a return that is seen elsewhere."""
-        self.returned.append(name)
+        return self.operations + function_cost * self.functions - before
 
     def _noted(self, function: Callable[..., Any], name: str) -> Callable[..., Any]:
         def noted(*arguments: Any) -> Any:
@@ -76,12 +74,15 @@ class Instrument:
         if name == "sum":
             self.operations += max(np.size(parts[0]) - 1, 0)
             return parts[0].sum()
-        function = getattr(np if name in _FUNCTIONS else operator, name)
-        value = function(*parts)
+        elementary = name in _FUNCTIONS
+        value = getattr(np if elementary else operator, name)(*parts)
+        done = 0
         if isinstance(value, float | np.floating):
-            self.operations += 1
+            done = 1
         elif isinstance(value, np.ndarray) and value.dtype.kind == "f":
-            self.operations += value.size
+            done = value.size
+        self.functions += done if elementary else 0
+        self.operations += 0 if elementary else done
         return value
 
 

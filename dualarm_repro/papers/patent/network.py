@@ -115,7 +115,7 @@ def state_equation(assumed: Assumed) -> Result:
     buffers = make_buffers(arrays, ROWS[numbers.form])
     no_noise, still = np.empty(0), np.zeros(size)
     rng = np.random.default_rng(SEED)
-    k = int(motion.rows.argmax())
+    k = int(motion.distance[:-1].argmin())
     q, t, worst = np.ascontiguousarray(motion.q[k]), float(motion.time[k]), 0.0
 
     def error(s: float, y: np.ndarray, move: np.ndarray) -> np.ndarray:

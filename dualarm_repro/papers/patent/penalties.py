@@ -60,10 +60,10 @@ def penalty_function(assumed: Assumed) -> Result:
         table=pd.DataFrame({"g": _GRID, **forms}),
         caption=(
             f"{len(forms)} penalties that fit the words, drawn for p = 1 (exponential 0.01) and "
-            f"sigma = 10. All of them, at {len(found)} choices of p and sigma, have the derivatives "
-            f"that differences give, to {max(worst['first'], worst['second']):.1e}, grow, are "
-            "convex and act on violations: which one the document means the words do not say, "
-            "since p, h and sigma are named and the formula is lost."
+            f"sigma = 10. All of them, at {len(found)} choices of p and sigma, have the "
+            f"derivatives that differences give, to {max(worst['first'], worst['second']):.1e}, "
+            "grow, are convex and act on violations: which one the document means the words do not "
+            "say, since p, h and sigma are named and the formula is lost."
         ),
         alt="Penalty curves over the violation g, all flat for negative g and rising for positive "
         "g.",

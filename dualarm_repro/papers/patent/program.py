@@ -68,10 +68,10 @@ def joint_limits(assumed: Assumed) -> Result:
     return Result(
         obtained={"angle_excess": angle, "speed_excess": speed, "standing": standing},
         caption=(
-            f"From {_STARTS} random configurations all joints run at their lower and at their upper bound "
-            f"for {_TICKS * COARSE_STEP:g} s. The largest excess over an angle limit is "
-            f"{angle:+.4f} rad (negative inside), over a speed limit {speed:+.1e} rad/s. Limits of "
-            "angle are announced in the text, and the inequality that follows is one on speed."
+            f"From {_STARTS} random configurations all joints run at their lower and at their "
+            f"upper bound for {_TICKS * COARSE_STEP:g} s. The largest excess over an angle limit "
+            f"is {angle:+.4f} rad (negative inside), over a speed limit {speed:+.1e} rad/s. "
+            "Limits of angle are announced in the text, and the inequality that follows is one on speed."
         ),
     )
 
@@ -114,12 +114,14 @@ def avoidance_rows(assumed: Assumed) -> Result:
             "rows": rows,
         },
         caption=(
-            f"At a posture of the frozen task between the ranges {rows} rows are active. Row gradients "
-            f"agree with central differences of the distances to {gradient:.1e} m/rad, in "
-            "penetration as well. Random joint velocities, slowed down until they satisfy the rows, "
-            f"close no distance below d1 faster than the bound by more than {faster:.1e} m/s. The vertices of the moving link meshes lie at least {-1e3 * excess:.2f} mm "
-            "inside the capsules (negative: they stick out). How J_N combines vector and "
-            "Jacobian, and how beta follows from the ranges, is not in the text."
+            f"At a posture of the frozen task between the ranges {rows} rows are active. Row "
+            f"gradients agree with central differences of the distances to {gradient:.1e} m/rad, "
+            "in penetration as well. Random joint velocities, slowed down until they satisfy the "
+            f"rows, close no distance below d1 faster than the bound by more than {faster:.1e} "
+            "m/s. The vertices of the moving link meshes lie at least "
+            f"{-1e3 * excess:.2f} mm inside the capsules (negative: they stick out). "
+            "How J_N combines vector and Jacobian, and how beta follows from the ranges, is not in "
+            "the text."
         ),
     )
 

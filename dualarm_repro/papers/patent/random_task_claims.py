@@ -68,11 +68,11 @@ def avoids(assumed: Assumed) -> Result:
         },
         table=pd.DataFrame(smallest.items(), columns=["reading", "smallest distance [m]"]),
         caption=(
-            f"Of {len(table)} random tasks that collide without avoidance, {free['exact']['count']} "
-            f"are free of contact with the exact QP ({yields} where it has to) and "
-            f"{kept['exact']['count']} keep d2 = {1e3 * SETTINGS['inner']:g} mm to "
-            f"{1e3 * assumed['reading_noise']:g} mm; the smallest distance is "
-            f"{1e3 * columns['exact'].min():.1f} mm. The document's own solver, the network, runs "
+            f"Of {len(table)} random tasks that collide without avoidance, "
+            f"{free['exact']['count']} are free of contact with the exact QP ({yields} "
+            f"where it has to) and {kept['exact']['count']} keep d2 = "
+            f"{1e3 * SETTINGS['inner']:g} mm to {1e3 * assumed['reading_noise']:g} mm; the smallest "
+            f"distance is {1e3 * columns['exact'].min():.1f} mm. The document's own solver, the network, runs "
             f"to the end of every task without a word: {free['network']['count']} are free of "
             f"contact, {kept['network']['count']} keep d2, the arms interpenetrate by up to "
             f"{-1e3 * smallest['network']:.0f} mm, and on {faster} tasks joints exceed their speed "
