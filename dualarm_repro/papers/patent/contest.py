@@ -137,7 +137,7 @@ def faster_than_numerical(assumed: Assumed) -> Result:
         measured=_measured(network),
         table=pd.DataFrame(_entries(network)),
         caption=(
-            f"{len(problems)} problems in a row where most rows are active. The exact active-set "
+            f"{len(problems)} problems in a row where avoidance presses most. The exact active-set "
             f"method takes {np.mean(exact):.0f} operations a problem, from nothing to rounding "
             f"accuracy; one network step takes {np.mean(each):.0f}, since it is a linear "
             f"solve (a root or elementary function counts as {cost:g}). "

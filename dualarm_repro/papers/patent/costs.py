@@ -15,6 +15,7 @@ from ...control.neural.saddle import solve_saddle
 from ...control.problem import Problem
 from ...control.recorded import recorded_problems
 from ...control.settings import ROWS, Settings
+from ...control.solvers import solve
 from ...tracking import memo
 from .constants import CONTROL_STEP
 from .instrument import Instrument
@@ -32,9 +33,9 @@ def recorded(every: int) -> list[Problem]:
 
 @memo()
 def busiest(count: int) -> list[Problem]:
-    """So many problems in a row, 5 ms apart, about the one with most avoidance rows."""
+    """So many problems in a row, 5 ms apart, about the one where avoidance presses most."""
     problems = recorded(5)
-    middle = max(range(len(problems)), key=lambda k: len(problems[k].h))
+    middle = max(range(len(problems)), key=lambda k: float(solve(problems[k]).z.max(initial=0.0)))
     start = min(max(middle - count // 2, 0), len(problems) - count)
     return problems[start : start + count]
 

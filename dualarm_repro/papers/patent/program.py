@@ -71,7 +71,8 @@ def joint_limits(assumed: Assumed) -> Result:
             f"From {_STARTS} random configurations all joints run at their lower and at their "
             f"upper bound for {_TICKS * COARSE_STEP:g} s. The largest excess over an angle limit "
             f"is {angle:+.4f} rad (negative inside), over a speed limit {speed:+.1e} rad/s. "
-            "Limits of angle are announced in the text, and the inequality that follows is one on speed."
+            "Limits of angle are announced in the text, and the inequality that follows is one on "
+            "speed."
         ),
     )
 

@@ -69,15 +69,16 @@ def avoids(assumed: Assumed) -> Result:
         table=pd.DataFrame(smallest.items(), columns=["reading", "smallest distance [m]"]),
         caption=(
             f"Of {len(table)} random tasks that collide without avoidance, "
-            f"{free['exact']['count']} are free of contact with the exact QP ({yields} "
-            f"where it has to) and {kept['exact']['count']} keep d2 = "
-            f"{1e3 * SETTINGS['inner']:g} mm to {1e3 * assumed['reading_noise']:g} mm; the smallest "
-            f"distance is {1e3 * columns['exact'].min():.1f} mm. The document's own solver, the network, runs "
-            f"to the end of every task without a word: {free['network']['count']} are free of "
-            f"contact, {kept['network']['count']} keep d2, the arms interpenetrate by up to "
-            f"{-1e3 * smallest['network']:.0f} mm, and on {faster} tasks joints exceed their speed "
-            "limits. Its inequalities are penalties, and the task is an equality: where they "
-            "exclude each other, it is the avoidance that yields."
+            f"{free['exact']['count']} are free of contact with the exact QP ({yields} where it "
+            f"has to) and {kept['exact']['count']} keep d2 = {1e3 * SETTINGS['inner']:g} mm to "
+            f"{1e3 * assumed['reading_noise']:g} mm; the smallest distance is "
+            f"{1e3 * columns['exact'].min():.1f} mm. The document's own solver, the network, runs "
+            f"to its end on {int(table['network_completed'].sum())} of them, whatever it does to "
+            f"the arms: {free['network']['count']} are free of contact, "
+            f"{kept['network']['count']} keep d2, the smallest distance is "
+            f"{1e3 * smallest['network']:.0f} mm, and on {faster} tasks joints exceed their speed "
+            "limits. Its inequalities are penalties and the task is an equality, so that the "
+            "avoidance yields where they exclude each other."
         ),
     )
 
