@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -66,9 +67,8 @@ def more_robust(assumed: Assumed) -> Result:
         name: [_added(runs[name, k], calm[name], measure) for k in range(REPEATS)]
         for name in ("network", "primal-dual")
     }
-    advantage = _interval(
-        [_share(a, b) for a, b in zip(added["network"], added["primal-dual"], strict=True)]
-    )
+    shares = [_share(a, b) for a, b in zip(added["network"], added["primal-dual"], strict=True)]
+    advantage = _interval(shares)
     own, other = (float(np.median(added[name])) for name in ("network", "primal-dual"))
     rows = [("none", name, 0, *_row(motion)) for name, motion in calm.items()]
     rows += [(kind, name, k, *_row(m)) for (name, k), m in runs.items() if m is not None]
@@ -86,6 +86,7 @@ def more_robust(assumed: Assumed) -> Result:
             "added_network": own if np.isfinite(own) else None,
             "added_primal_dual": other if np.isfinite(other) else None,
         },
+        witnesses=_witnesses(shares),
         table=pd.DataFrame(rows, columns=["disturbance", "solver", "repeat", *_COLUMNS]),
         caption=(
             f"With {what}, judged by {measure.replace('_', ' ')}, the disturbance adds {own:.2g} "
@@ -172,6 +173,16 @@ def _share(own: float, other: float) -> float:
     if np.isinf(own) or np.isinf(other):
         return -1.0 if np.isinf(own) else 1.0
     return (other - own) / (other + own)
+
+
+def _witnesses(shares: list[float]) -> list[dict[str, Any]]:
+    """A repeat in which the network is the more robust one, and one in which it is not."""
+    found: dict[str, dict[str, Any]] = {}
+    for k, share in enumerate(shares):
+        verdict = "holds" if share > 0.0 else "fails"
+        witness = {"choice": f"repeat {k}", "verdict": verdict, "values": {"advantage": share}}
+        found.setdefault(verdict, witness)
+    return list(found.values())
 
 
 def _interval(values: list[float]) -> dict[str, float]:
