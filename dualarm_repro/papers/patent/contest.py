@@ -158,8 +158,9 @@ def faster_than_numerical(assumed: Assumed) -> Result:
     )
 
 
-@checks(
+@REGISTRY.checks(
     "patent.claim_pinv_slow",
+    page="patent/avoidance",
     rules=[
         Generally(
             key="slower",
