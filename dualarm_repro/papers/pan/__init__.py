@@ -13,6 +13,7 @@ from . import (
     result,
     sensitivity,
     studies,
+    system_measure,
 )
 
 __all__ = [
@@ -28,4 +29,5 @@ __all__ = [
     "result",
     "sensitivity",
     "studies",
+    "system_measure",
 ]
