@@ -15,7 +15,7 @@ from ...arms.wrist_geometry import wrist_geometry
 from ...datafiles import data_path
 from ...errors import UnsupportedArmError
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
-from ...scene.posing import link_frames, links_of, place_cores
+from ...scene import posing
 from ...view.arm_drawings import frames_figure
 from ...view.welding_cell import capsule_figure, cell_figure, vectors_figure
 from ...welding import ROBOTS, WELDER, closed_form
@@ -284,9 +284,10 @@ def _tip_error(cell: Any, jobs: Any, centre: np.ndarray) -> float:
 
 def _bare(arm: Any) -> float:
     """Largest distance of a joint from the capsules at q = 0, negative where all lie inside."""
-    links, frames = links_of(arm), link_frames(arm.chain, np.eye(4)[:3], np.zeros((1, arm.nq)))
+    links = posing.links_of(arm)
+    frames = posing.link_frames(arm.chain, np.eye(4)[:3], np.zeros((1, arm.nq)))
     ends = np.empty((1, len(links.radius), 2, 3))
-    place_cores(frames, links.joint, links.local, ends)
+    posing.place_cores(frames, links.joint, links.local, ends)
     start, along = ends[0, :, 0], ends[0, :, 1] - ends[0, :, 0]
     square = np.maximum(np.sum(along**2, axis=1), 1e-300)
     depths = []
