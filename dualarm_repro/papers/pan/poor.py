@@ -17,7 +17,6 @@ from .optimum import measures_at, solved
 from .positions import (
     at_optimum,
     extreme_position,
-    found_optimum,
     job_scene_at,
     search_box,
     status_name,
@@ -140,23 +139,23 @@ def near_zero(assumed: Assumed) -> Result:
     ],
 )
 def unsteady(assumed: Assumed) -> Result:
-    """Variation of the system measure at position (b) and at the optimum."""
-    job, measure, best = found_optimum(assumed)
+    """Variation of the system measure at position (b)."""
+    job, measure = Job.of(assumed), Measure.of(assumed)
     poor = extreme_position(job, measure, search_box(assumed), assumed["poor_position_b"])
-    if not (best.fitness and poor.fitness):
+    if not poor.fitness:
         return Result(
             obtained={"swing": None, "position": None},
             caption="No position of the region is feasible, so there is no unsteady one either.",
         )
-    system, steady = (measures_at(job, measure, p.position).system for p in (poor, best))
-    swing, least = (float(np.ptp(m) / m.max()) for m in (system, steady))
+    system = measures_at(job, measure, poor.position).system
+    swing = float(np.ptp(system) / system.max())
     return Result(
-        obtained={"swing": swing, "at_optimum": least, "position": poor.position.tolist()},
+        obtained={"swing": swing, "position": poor.position.tolist()},
         caption=(
             f"At the least steady position, ({point(poor.position, 3)}) m, the system measure "
-            f"loses {swing:.0%} of its maximum along the seam, against {least:.0%} at the "
-            "optimum. The text connects this with unreachable points or collisions; the position "
-            f"found is {status_name(solved(job, tuple(poor.position)))}."
+            f"loses {swing:.0%} of its maximum along the seam. The text connects this with "
+            "unreachable points or collisions; the position found is "
+            f"{status_name(solved(job, tuple(poor.position)))}."
         ),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -21,9 +22,10 @@ from .studies import VARIANTS
 checks = partial(REGISTRY.checks, page="pan/search")
 
 
-def trace_of(assumed: Mapping[str, Any]) -> Trace:
-    """One run of the assumptions, watched."""
-    return traced(Job.of(assumed), Measure.of(assumed), Genetic.of(assumed), search_box(assumed))
+def trace_of(assumed: Mapping[str, Any], **changes: Any) -> Trace:
+    """One run of the assumptions, some settings of the search changed, watched."""
+    settings = replace(Genetic.of(assumed), **changes)
+    return traced(Job.of(assumed), Measure.of(assumed), settings, search_box(assumed))
 
 
 @checks(
@@ -38,7 +40,7 @@ def trace_of(assumed: Mapping[str, Any]) -> Trace:
 def chart(assumed: Assumed) -> Result:
     """A run is watched; the chart is drawn from the list of acts that it runs."""
     trace = trace_of(assumed)
-    adaptive = trace_of({**assumed, "ga_mutation": "adaptive_feasible"})
+    adaptive = trace_of(assumed, ga_mutation="adaptive_feasible")
     elite, crossed, mutants = trace.settings.counts
     return Result(
         obtained={
