@@ -63,8 +63,9 @@ def matrix(assumed: Assumed) -> Result:
             "as_labelled": gap,
         },
         caption=(
-            "The matrix has the listed position of base 1 as translation, so it is the pose of "
-            "the base in the world. Its label makes it the map from world to base; then base 1 "
+            f"As pose of base 1 in the world the matrix {'gives' if as_pose else 'does not give'} "
+            "the listed position. Its label makes it the "
+            f"{'map from world to base' if reading == 'literal' else 'pose'}; then base 1 "
             f"would stand at ({', '.join(f'{v:g}' for v in labelled)}) m, {gap:.2f} m away from "
             "the listed position."
         ),

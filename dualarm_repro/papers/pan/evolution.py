@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,6 +12,7 @@ from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from ...view.search_plots import best_individual_figure, history_figure
 from ...welding import genetic
 from ..wording import point
+from .nominal import nominal_values
 from .positions import found_optimum, search_box
 from .scenario import printed_optimum
 from .studies import EVOLUTION
@@ -50,7 +49,8 @@ class Runs:
 )
 def best_individual(assumed: Assumed) -> Result:
     """Best individual of every run."""
-    runs, (job, measure, truth) = stored_runs(assumed), found_optimum(assumed)
+    runs = stored_runs(round(assumed["ga_seeds"]))
+    job, measure, truth = found_optimum(nominal_values())
     again = job.placement(measure.reading())(runs.best)
     gap = float(1 - runs.fitness.min() / truth.fitness)
     printed = printed_optimum()
@@ -88,7 +88,7 @@ def best_individual(assumed: Assumed) -> Result:
 )
 def fitness_curves(assumed: Assumed) -> Result:
     """Best and mean fitness over the generations."""
-    runs = stored_runs(assumed)
+    runs = stored_runs(round(assumed["ga_seeds"]))
     best, mean = runs.histories["best"], runs.histories["mean"]
     return Result(
         obtained={
@@ -122,15 +122,16 @@ def fitness_curves(assumed: Assumed) -> Result:
 )
 def distance_curve(assumed: Assumed) -> Result:
     """Mean distance between individuals over the generations."""
-    distance = stored_runs(assumed).histories["distance"]
-    diagonal = float(np.linalg.norm(np.diff(np.array(search_box(assumed)), axis=1)))
+    runs = stored_runs(round(assumed["ga_seeds"]))
+    distance = runs.histories["distance"]
+    diagonal = float(np.linalg.norm(np.diff(np.array(search_box(nominal_values())), axis=1)))
     return Result(
         obtained={
             "outside": float(np.maximum(distance - diagonal, 0.0).max()),
             "first": float(np.median(distance[:, 0])),
             "last": float(np.median(distance[:, -1])),
         },
-        table=_history_table(stored_runs(assumed), ("distance",)),
+        table=_history_table(runs, ("distance",)),
         caption=(
             f"Mean distance between the individuals of {len(distance)} runs: from "
             f"{np.median(distance[:, 0]):.2f} m to {np.median(distance[:, -1]):.3f} m (medians)."
@@ -140,10 +141,10 @@ def distance_curve(assumed: Assumed) -> Result:
     )
 
 
-def stored_runs(assumed: Mapping[str, Any], variant: str = "declared") -> Runs:
-    """The stored runs of the declared problem, as many as there are seeds."""
+def stored_runs(count: int, variant: str = "declared") -> Runs:
+    """The first ``count`` stored runs on the declared problem."""
     table = EVOLUTION.load()
-    table = table[table["variant"] == variant].head(round(assumed["ga_seeds"]))
+    table = table[table["variant"] == variant].head(count)
 
     def history(name: str) -> np.ndarray:
         columns = [column for column in table.columns if column.rpartition("_")[0] == name]

@@ -29,6 +29,7 @@ _CONSTRAINTS = {
 }
 #: How much denser than the seam that is searched the constraints are tested.
 _DENSER = 10
+_SAME = 1e-12
 _TESTED = 24  # positions of each status
 
 
@@ -36,8 +37,10 @@ _TESTED = 24  # positions of each status
     "pan.eq_opt",
     rules=[
         Is(key="variables", to="over", label="variables that are searched"),
-        Bounded(
-            key="objective", high=1e-12, label="printed objective and fitness at the best position"
+        Is(
+            key="objective_is_printed",
+            value=True,
+            label="the fitness of the best position is the printed objective there",
         ),
         Bounded(
             key="disagreements",
@@ -51,11 +54,13 @@ def problem(assumed: Assumed) -> Result:
     """Feasible set and maximum of the declared problem, against what is printed."""
     job, measure, best = found_optimum(assumed)
     if not best.fitness:
-        return _nothing_feasible("variables", "objective", "disagreements", "better")
+        return _nothing_feasible("variables", "objective_is_printed", "disagreements", "better")
     box = search_box(assumed)
     placement, grid = job.placement(measure.reading()), survey(job, measure, box)
     second = grid.points + 0.5 * SPACING
     values = placement(second[(second <= np.array(box)[:, 1]).all(axis=1)])
+    gap = _objective_gap(job, measure, best)
+    better = int((values > best.fitness * (1 + 1e-9)).sum())
     disagreements = constraint_disagreements(job, grid.points, grid.status, np.array(box))
     bounds = np.array(box)
     edge = float(np.minimum(best.position - bounds[:, 0], bounds[:, 1] - best.position).min())
@@ -63,9 +68,10 @@ def problem(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "variables": list("xyz")[: len(best.position)],
-            "objective": _objective_gap(job, measure, best),
+            "objective_is_printed": gap < _SAME,
+            "objective_gap": gap,
             "disagreements": disagreements,
-            "better": int((values > best.fitness * (1 + 1e-9)).sum()),
+            "better": better,
             "feasible_share": share,
             "to_edge": edge,
             "optimum": best.position.tolist(),
@@ -74,8 +80,8 @@ def problem(assumed: Assumed) -> Result:
         caption=(
             f"The constraints leave {share:.1%} of the region. The best fitness, "
             f"{best.fitness:.4f}, is taken at ({point(best.position, 3)}) m, {edge:.2f} m from "
-            "the edge of the region; no point of a second grid of "
-            f"{len(values)} is better. The printed constraints, evaluated on joint paths one by "
+            f"the edge of the region; of a second grid of {len(values)} points {better} are "
+            "better. The printed constraints, evaluated on joint paths one by "
             f"one, disagree with the search at {disagreements} positions."
         ),
         alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",

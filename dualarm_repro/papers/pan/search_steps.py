@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -15,17 +15,19 @@ from ...view.search_plots import history_figure
 from ...welding import genetic
 from .evolution import stored_runs
 from .ga_trace import Trace, first_stop, traced
+from .nominal import nominal_values
 from .positions import search_box
 from .scenario import Genetic, Job, Measure
-from .studies import VARIANTS
+from .studies import RUNS, VARIANTS
 
 checks = partial(REGISTRY.checks, page="pan/search")
 
 
-def trace_of(assumed: Mapping[str, Any], **changes: Any) -> Trace:
-    """One run of the assumptions, some settings of the search changed, watched."""
-    settings = replace(Genetic.of(assumed), **changes)
-    return traced(Job.of(assumed), Measure.of(assumed), settings, search_box(assumed))
+def declared_trace(**changes: Any) -> Trace:
+    """One run on the declared problem, some settings of the search changed, watched."""
+    values = nominal_values()
+    settings = replace(Genetic.of(values), **changes)
+    return traced(Job.of(values), Measure.of(values), settings, search_box(values))
 
 
 @checks(
@@ -39,8 +41,7 @@ def trace_of(assumed: Mapping[str, Any], **changes: Any) -> Trace:
 )
 def chart(assumed: Assumed) -> Result:
     """A run is watched; the chart is drawn from the list of acts that it runs."""
-    trace = trace_of(assumed)
-    adaptive = trace_of(assumed, ga_mutation="adaptive_feasible")
+    trace, adaptive = declared_trace(), declared_trace(ga_mutation="adaptive_feasible")
     elite, crossed, mutants = trace.settings.counts
     return Result(
         obtained={
@@ -115,10 +116,10 @@ def seen_stops(traces: Sequence[Trace]) -> list[str]:
 )
 def two_stop_rules(assumed: Assumed) -> Result:
     """Where each stored run ended, and where the printed rules say it has to."""
-    settings, count = Genetic.of(assumed).settings(), round(assumed["ga_seeds"])
+    settings = Genetic.of(nominal_values()).settings()
     other, ends = 0, {}
     for variant, changes in VARIANTS.items():
-        runs = stored_runs(assumed, variant)
+        runs = stored_runs(RUNS, variant)
         limit, smallest = settings.generations, changes.get("stall", settings.stall)
         for means, end in zip(runs.histories["mean"], runs.ends, strict=True):
             other += first_stop(means, limit, smallest) != end
@@ -135,7 +136,7 @@ def two_stop_rules(assumed: Assumed) -> Result:
     return Result(
         obtained={"other_ends": other, "by_limit": by_limit, "by_stall": by_stall, "ends": ends},
         caption=(
-            f"Up to {count} runs of each variant, ended by either rule: {told}. {other} of them "
+            f"{RUNS} runs of each variant, ended by either rule: {told}. {other} of them "
             "ended elsewhere than where the printed rules, recomputed from the mean fitness, "
             "first hold. With mutation that keeps drawing, the mean fitness never rests, so that "
             "which rule ends a run depends on an operator and a threshold that are not printed."
@@ -156,12 +157,12 @@ def two_stop_rules(assumed: Assumed) -> Result:
 )
 def discarded(assumed: Assumed) -> Result:
     """What becomes of infeasible individuals in a run that is watched."""
-    trace = trace_of(assumed)
+    trace = declared_trace()
     share = 1 - np.array([[g.feasible for g in trace.history]])
     parents = trace.infeasible_parents
     return Result(
         obtained={
-            "infeasible_passed_on": trace.infeasible_passed_on,
+            "infeasible_passed_on": int(trace.infeasible_passed_on),
             "best_infeasible": int(trace.history[-1].best <= 0),
             "first": float(share[0, 0]),
             "last": float(share[0, -1]),
