@@ -13,10 +13,10 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env book test verify results metadata claims bench serve lint lock wheel clean
+.PHONY: help env book test verify trust-ledger results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
-	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
 
@@ -32,6 +32,9 @@ test: $(VENV)/.installed  ## run the whole test suite
 
 verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
+
+trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
+	$(BIN)/python tools/trust_ledger.py
 
 results: $(VENV)/.installed  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update
