@@ -49,7 +49,9 @@ def honest(registry, **options):
     @registry.checks("toy.eq01", rules, page="toy/page")
     def circle(assumed):
         matrix = [["r", "0"], ["0", "1"]]
-        return Result({"radius": 2.0, "area": float(_area(registry)), "matrix": matrix}, caption="c")
+        return Result(
+            {"radius": 2.0, "area": float(_area(registry)), "matrix": matrix}, caption="c"
+        )
 
 
 @pytest.mark.parametrize("options", [{}, {"tolerance": 0.5, "reason": "drawn by hand"}])

@@ -1,4 +1,4 @@
-"""The stored outcome of all changes: ``data/results/trust.json``, written by ``make trust-ledger``."""
+"""The stored outcome of all changes, ``data/results/trust.json``, which the status page shows."""
 
 from __future__ import annotations
 
