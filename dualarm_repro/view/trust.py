@@ -37,7 +37,7 @@ def trust_page(registry: Registry) -> Page:
         f'<div class="ledger-scroll"><table id="trust">{head}{rows}</table></div>'
         f"<p>The mutants of the method are drawn with seed {found['seed']}; "
         f"{method['equivalent']} more change no value, each for a reason that is given. "
-        f"{len(items)} items hold something that could not be tried. "
+        f"Items that hold something that could not be tried: {len(items)}. "
         f"{'' if same else 'The methods have changed since; '}"
         "<code>make trust-ledger</code> tries all of it again.</p>"
         f"{_unnoticed(found)}"
