@@ -13,7 +13,7 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env book test verify verify-portable results metadata claims bench serve lint lock wheel clean
+.PHONY: help env book test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -35,6 +35,9 @@ verify: $(VENV)/.installed  ## recompute every item from nothing and compare wit
 
 verify-portable: $(VENV)/.installed  ## verify, then test, with the machine code of other processors
 	$(BIN)/python tools/verify_portable.py --tests
+
+trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
+	$(BIN)/python tools/trust_ledger.py
 
 results: $(VENV)/.installed  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update
