@@ -57,7 +57,8 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
 
     A statement about one run is possible (``reproduced-under-assumption``) if any declared choice
     meets print, else ``not-reproduced``. One that claims more is ``undecidable`` where declared
-    choices disagree. An item without an original takes the verdict of a statement that decides it.
+    choices disagree. Choices are the draws that are stored for the item, and the witnesses that the
+    computation found in a study of its own. An item without an original takes the verdict of a statement that decides it.
 
     Parameters
     ----------
@@ -108,21 +109,27 @@ def _over_choices(evaluation: Evaluation, table: pd.DataFrame | None) -> Settled
         "judged": judged(evaluation),
     }
     given = [dict(entry) for entry in result.witnesses]
+    if own is Verdict.UNDECIDABLE:
+        return Settled(own, given)
     tried = [] if table is None else _tried(table)
     met = [entry for entry in tried if entry.pop("met")]
     missed = [entry for entry in tried if entry not in met]
-    if own is Verdict.UNDECIDABLE:
-        return Settled(own, given)
+    met = [entry for entry in given if entry["verdict"] == "holds"] + met
+    missed = [entry for entry in given if entry["verdict"] == "fails"] + missed
     if evaluation.item.scope == "general":
         other = met if own is Verdict.NOT_REPRODUCED else missed
         if other:
-            return Settled(Verdict.UNDECIDABLE, [nominal, other[0], *given])
+            return Settled(Verdict.UNDECIDABLE, _distinct([nominal, other[0], *given]))
         return Settled(own, [nominal, *given], search=_search(evaluation, table))
     if own is Verdict.UNDER_ASSUMPTION:
         return Settled(own, [nominal, *given])
     if met:
-        return Settled(Verdict.UNDER_ASSUMPTION, [met[0], *given])
+        return Settled(Verdict.UNDER_ASSUMPTION, _distinct([met[0], *given]))
     return Settled(own, given, search=_search(evaluation, table))
+
+
+def _distinct(witnesses: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [entry for k, entry in enumerate(witnesses) if entry not in witnesses[:k]]
 
 
 def _tried(table: pd.DataFrame) -> list[dict[str, Any]]:
