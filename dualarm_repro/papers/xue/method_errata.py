@@ -11,7 +11,8 @@ from .chosen import nominal
 from .layout import placed_master
 from .link_truth import RADII
 from .motions import master_track, master_undisturbed, slave_plan
-from .potentials import attractive_force_forms, one_dimension, rest_point_formula
+from .new_potentials import rest_slope, term_scaling
+from .potentials import attractive_force_forms
 from .scenario import GAINS, SLAVE_END, SLAVE_START
 from .stored import ablation_shares, clear_share, minima_shares, virtual_point_counts
 from .table_2 import TEXT, printed_counts
@@ -21,7 +22,7 @@ from .truth import largest_radius, link_cores
 
 @REGISTRY.proves("xue.force_modulus")
 def force_modulus() -> Proof:
-    """The gradient of (9) in symbols against the vector and against the printed scalar."""
+    """The two printed sides of (11), and the last one without its modulus."""
     forms = attractive_force_forms()
     return Proof(
         "-grad U_att of (9) equals -k_a (X - X_g) and not, even along a line, -k_a |X - X_g|",
@@ -33,13 +34,13 @@ def force_modulus() -> Proof:
 @REGISTRY.proves("xue.eq13_units")
 def eq13_units() -> Proof:
     """Dimensions of the two terms, and what a change of the unit of length does."""
-    shares = minima_shares()
+    shares, scaling = minima_shares(), term_scaling()
     metres, millimetres = shares[1.0].value, shares[1e-6].value
     return Proof(
-        "the two squares have different dimensions, so that the unit of length acts as a weight: "
+        "the two printed terms do not scale alike with the unit of length, which so is a weight: "
         "with lengths in millimetres far more descents end elsewhere than with metres",
-        not one_dimension() and shares[1e-6].low > shares[1.0].high,
-        {"minima_share_in_m": metres, "minima_share_in_mm": millimetres},
+        not scaling["one_dimension"] and shares[1e-6].low > shares[1.0].high,
+        {**scaling, "minima_share_in_m": metres, "minima_share_in_mm": millimetres},
     )
 
 
@@ -70,13 +71,14 @@ def slave_goal_angles() -> Proof:
 @REGISTRY.proves("xue.virtual_term_absent")
 def virtual_term_absent() -> Proof:
     """A term of the form (9) that always acts keeps the arm off its goal."""
-    layout = nominal().layout
+    case = nominal()
+    layout = case.layout
     share = GAINS["k_w"] / (GAINS["k_w"] + GAINS["k_a"])
     offset = share * float(np.linalg.norm(SLAVE_END - layout.window_centre))
     return Proof(
         "with the term always on, the end effector would rest on the line from goal to virtual "
         "point, so that a rule for switching it off is needed",
-        rest_point_formula() and offset > 0.02,
+        rest_slope() < 1e-6 and offset > case.method.goal_tolerance,
         {"rest_share": share, "slave_distance_from_goal": offset},
     )
 
