@@ -15,7 +15,7 @@ from .new_potentials import rest_slope, term_scaling
 from .potentials import attractive_force_forms
 from .scenario import GAINS, SLAVE_END, SLAVE_START
 from .stored import ablation_shares, clear_share, minima_shares, virtual_point_counts
-from .table_2 import TEXT, printed_counts
+from .trap_counts import table_counts, text_counts
 from .trials import FLAT, METHODS, TRIALS, run_methods, starts
 from .truth import largest_radius, link_cores
 
@@ -63,7 +63,7 @@ def slave_goal_angles() -> Proof:
     return Proof(
         "(13) cannot be evaluated for the slave before inverse kinematics has been called for its "
         "goal",
-        values["postures"] >= 1,
+        values["needs_goal_angles"] and values["calls"]["slave"] >= 1 > values["calls"]["master"],
         values,
     )
 
@@ -114,13 +114,13 @@ def stop_at_zero() -> Proof:
 @REGISTRY.proves("xue.table2_exchange")
 def table2_exchange() -> Proof:
     """The trap column as printed against the text before the table."""
-    table = printed_counts()
+    table, text = table_counts(), text_counts()
     exchanged = dict(zip(table, reversed(table.values()), strict=True))
     return Proof(
         "the trap column of the table contradicts the text, and agrees with it once its two "
         "entries are exchanged",
-        table != TEXT and exchanged == TEXT,
-        {"table": table, "text": TEXT, "table_exchanged": exchanged},
+        table != text and exchanged == text,
+        {"table": table, "text": text, "table_exchanged": exchanged},
     )
 
 
