@@ -25,12 +25,10 @@ checks = partial(REGISTRY.checks, page="xue/scene")
 
 @checks(
     "xue.fig04",
-    samples=32,
     rules=[
         Rounds(key="start", to="start", label="Start in the figure, in the frame of the document"),
         Rounds(key="end", to="end", label="End in the figure, in the frame of the document"),
         Bounded(key="off_centre", high=1e-12, label="virtual point to the middle of the bars [m]"),
-        Is(key="between", value=True, label="Start and End are on either side of the window"),
         NoOriginal(key="window", label="size, place and direction of the window"),
     ],
 )

@@ -30,7 +30,9 @@ _ENDS = {
 @checks(
     "xue.claim_no_ik",
     rules=[
-        Is(key="calls.master", value=0, label="calls in the run of the master from what is printed"),
+        Is(
+            key="calls.master", value=0, label="calls in the run of the master from what is printed"
+        ),
         Is(
             key="needs_goal_angles",
             value=True,

@@ -134,9 +134,10 @@ def joints_as_points(assumed: Assumed) -> Result:
         },
         caption=(
             f"The potentials act on {len(points.names)} points of the slave and repel it from "
-            f"{len(obstacles.radius)} of the master; the largest of them measures {size:g} m. Where the "
-            f"points avoid everything, the segments between them are clear in {thin.value:.0%} of "
-            f"the arrangements, links of radius {radius:g} m in {thick.value:.0%}."
+            f"{len(obstacles.radius)} of the master; the largest of them measures {size:g} m. "
+            "Where the points avoid everything, the segments between them are clear in "
+            f"{thin.value:.0%} of the arrangements, links of radius {radius:g} m in "
+            f"{thick.value:.0%}."
         ),
     )
 

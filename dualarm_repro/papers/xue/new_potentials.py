@@ -157,7 +157,9 @@ def five_summands(assumed: Assumed) -> Result:
         counts[choice] = len(made.points.names)
         ends = ends_of(made.placed, control_points(made.placed.arm, choice), q)
         still = np.ptp(ends, axis=0).max(axis=(1, 2)) == 0.0
-        fixed[choice] = [name for name, rests in zip(made.points.names, still, strict=True) if rests]
+        fixed[choice] = [
+            name for name, rests in zip(made.points.names, still, strict=True) if rests
+        ]
     rests = "; ".join(f"{', '.join(names)} of {choice}" for choice, names in fixed.items() if names)
     return Result(
         obtained={
@@ -179,9 +181,7 @@ def five_summands(assumed: Assumed) -> Result:
 def total_potential(assumed: Assumed) -> Result:
     """(16) against what the arm descends when it sets out."""
     switching, term = assumed["virtual_switching"], assumed["virtual_term"]
-    made = sample_problem(
-        virtual_switching=switching, virtual_joints=term == "position_and_joints"
-    )
+    made = sample_problem(virtual_switching=switching, virtual_joints=term == "position_and_joints")
     q = samples(made)
     repulsive = summed(repulsion("eq14", made.repulsion.distances(q), nearest=False))
     printed = total(new_attractions(made, q), repulsive)
@@ -257,7 +257,10 @@ def _virtual(made: Problem, q: np.ndarray, joints: bool) -> np.ndarray:
         return np.array([attraction(x, centre, point.gain) for x in flange])
     angles = np.array(point.joints)
     return np.array(
-        [new_attraction(x, centre, row, angles, point.gain) for x, row in zip(flange, q, strict=True)]
+        [
+            new_attraction(x, centre, row, angles, point.gain)
+            for x, row in zip(flange, q, strict=True)
+        ]
     )
 
 

@@ -152,7 +152,9 @@ def _close(left: np.ndarray, right: np.ndarray) -> bool:
 @checks(
     "xue.eq12",
     rules=[
-        Bounded(key="sides", high=1e-6, label="the force as printed against -grad of (10), at most"),
+        Bounded(
+            key="sides", high=1e-6, label="the force as printed against -grad of (10), at most"
+        ),
         Bounded(key="force", high=1e-6, label="and against the joint forces of the field run"),
         GRADIENT(),
     ],
@@ -195,9 +197,7 @@ def _force_run(made: Problem, q: np.ndarray) -> float:
         ends = [made.repulsion.distances(row + sign * steps)[:, 0] for sign in (1, -1)]
         slopes = (ends[0] - ends[1]) / 2e-6  # (joints, bars)
         distances = made.repulsion.distances(row[np.newaxis])[0, 0]
-        force = sum(
-            repulsive_force(float(d), slopes[:, bar]) for bar, d in enumerate(distances)
-        )
+        force = sum(repulsive_force(float(d), slopes[:, bar]) for bar, d in enumerate(distances))
         run = -made.repulsion.gradient(row)
         largest = np.maximum(largest, difference(force, run) / max(1.0, float(abs(run).max())))
     return float(largest)

@@ -11,7 +11,7 @@ from .scenario import matrices_robot
 
 A, ALPHA, D, THETA = sp.symbols("a_prev alpha_prev d theta", real=True)
 LINKS = range(1, 7)
-_NAMES = {"a_prev": A, "d_i": D, "theta_i": THETA}
+_NAMES = {"a_prev": A, "alpha_prev": ALPHA, "d_i": D, "theta_i": THETA}
 
 
 def joint_variable(k: int) -> sp.Symbol:

@@ -39,9 +39,7 @@ NOTHING = "In this arrangement there is nothing to plan."
             role=Role.CONTRADICTS,
             label="potential where a run stands still, in what the document calls a local minimum",
         ),
-        Bounded(
-            key="gradient", high="flat", role=Role.CONTRADICTS, label="gradient at that place"
-        ),
+        Bounded(key="gradient", high="flat", role=Role.CONTRADICTS, label="gradient at that place"),
     ],
     samples=16,
 )

@@ -101,7 +101,8 @@ def master_start(assumed: Assumed) -> Result:
         obtained={"q": start.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
         caption=(
             f"The start is used as printed; its flange is at ({point(tcp)}) m. Axis L of the real "
-            f"robot would be {abs(excess):.1f} deg {'beyond' if excess > 0 else 'inside'} its range."
+            f"robot would be {abs(excess):.1f} deg {'beyond' if excess > 0 else 'inside'} its "
+            "range."
         ),
     )
 

@@ -21,6 +21,7 @@ from .repeated import REPEATED
 from .trap_counts import text_counts
 from .trials import METHODS, wilson
 
+
 def share(count: float, runs: float) -> Share:
     """An observed share with its 95 % interval after Wilson."""
     return Share(float(count) / float(runs), *wilson(int(count), int(runs)))

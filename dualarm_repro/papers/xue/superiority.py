@@ -104,9 +104,7 @@ def _sentence(name: str, found: dict[str, Any]) -> str:
     return f"{name.capitalize()} {word}: {_MEASURES[name]} {interval}."
 
 
-def _witnesses(
-    differences: pd.DataFrame, found: dict[str, dict[str, Any]]
-) -> list[dict[str, Any]]:
+def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """Where nothing fails and something is open: a declared arrangement for each side of it."""
     if any(one["high"] < 0.0 for one in found.values()):
         return []

@@ -244,7 +244,9 @@ def _counts(trials: Trials | None) -> dict[str, Any]:
         "stationary": {name: getattr(trials, name).stationary for name in METHODS_OF_TABLE_2},
         "held": {name: getattr(trials, name).held for name in METHODS_OF_TABLE_2},
         "virtual_point_used": trials.improved.used,
-        "intervals": {name: list(wilson(getattr(trials, name).missed, TRIALS)) for name in METHODS_OF_TABLE_2},
+        "intervals": {
+            name: list(wilson(getattr(trials, name).missed, TRIALS)) for name in METHODS_OF_TABLE_2
+        },
     }
 
 
