@@ -104,9 +104,10 @@ def virtual_point_credit() -> Proof:
 def stop_at_zero() -> Proof:
     """Where a trapped run stands still the potential is positive."""
     obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
+    zero = REGISTRY.look("xue.claim_stop_zero", "thresholds").thresholds["above_zero"].value
     return Proof(
         "where a run stands still short of the goal the gradient vanishes, not the potential",
-        obtained["at_trap"] > 0.01 and obtained["gradient"] < FLAT,
+        obtained["at_trap"] > zero and obtained["gradient"] < FLAT,
         obtained,
     )
 
@@ -166,10 +167,11 @@ def layout_conflict() -> Proof:
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)
     ]
+    farthest = REGISTRY.declared("xue.meeting_distance", "range").range[1]
     anywhere = float(np.linalg.norm(track + case.layout.master_base - line, axis=1).min())
     return Proof(
         "a base moved sideways only never brings the two end effectors together at one instant; "
         "one moved in three directions does",
-        min(sideways) > 0.5 > anywhere,
+        min(sideways) > farthest > anywhere,
         {"best_sideways": min(sideways), "base_of_the_arrangement": anywhere},
     )

@@ -304,7 +304,8 @@ def _trial_table(trials: Trials | None) -> pd.DataFrame | None:
     for name in METHODS_OF_TABLE_2:
         found = getattr(trials, name)
         low, high = wilson(found.missed, found.runs)
-        readings = {"text": words[name], "table": table[name]}
+        seconds = REGISTRY.printed("xue.tab02")[name]["mean_time"]
+        readings = {"text": words[name], "table": table[name], "printed_time_s": float(seconds)}
         interval = {"missed_low": low, "missed_high": high}
         rows.append({"method": name, **readings, **found._asdict(), **interval})
     return pd.DataFrame(rows)
