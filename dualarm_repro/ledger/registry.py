@@ -229,9 +229,14 @@ class Registry:
         return {key: self.assumption(f"{paper}.{key}") for key in self._papers[paper].assumptions}
 
     def part(self, name: str) -> Any:
-        """The part of a document that a recorded input ``papers/xue.yaml#items.tab01`` names."""
+        """The part of a document that a recorded input ``papers/xue.yaml#items.tab01`` names.
+
+        Looking at it to see whether it changed is no dependency, so nothing is noted.
+        """
         path, _, fields = name.partition("#")
-        found: Any = self.paper(Path(path).stem).model_dump(mode="json")
+        document = Path(path).stem
+        self._read(document)
+        found: Any = self._papers[document].model_dump(mode="json")
         for field in fields.split(".") if fields else ():
             found = found.get(field) if isinstance(found, dict) else None
         return found

@@ -61,7 +61,8 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
     A statement about one run is possible (``reproduced-under-assumption``) if any declared choice
     meets print, else ``not-reproduced``. One that claims more is ``undecidable`` where declared
     choices disagree. Choices are the draws that are stored for the item, and the witnesses that the
-    computation found in a study of its own. An item without an original takes the verdict of a statement that decides it.
+    computation found in a study of its own. An item without an original takes the verdict of a
+    statement that decides it.
 
     Parameters
     ----------
