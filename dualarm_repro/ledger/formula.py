@@ -140,11 +140,13 @@ def _plain(text: str) -> sp.Expr:
     text = _norms(text)
     text = re.sub(r"\^\*", "_star", text)
     text = re.sub(r"_\{(\w+)\}", r"_\1", text)
-    text = re.sub(r"\bgrad (\w+)", r"grad(\1)", text)
     text = re.sub(r"(?<=\w)\((i|j|k)\)", r"_\1", text)
     text = re.sub(r"(\w+|\([^()]*\))\^T(\((?:[^()]*)\))?", r"transpose(\1)", text)
     functions = "|".join(_KNOWN)
-    text = re.sub(rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)", r"\1", text)
+    arguments = rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)"
+    while (shorter := re.sub(arguments, r"\1", text)) != text:
+        text = shorter
+    text = re.sub(r"\bgrad (\w+)", r"grad(\1)", text)
     text = re.sub(r"(?<=[\w)]) (?=[A-Za-z(])", "*", text)
     text = text.replace("^", "**")
     names = set(re.findall(r"[A-Za-z_]\w*", text)) - _KNOWN.keys()
@@ -154,7 +156,7 @@ def _plain(text: str) -> sp.Expr:
 
 def _norms(text: str) -> str:
     """``|a|`` becomes ``norm(a)``; bars do not nest in print."""
-    parts = text.split("|")
+    parts = text.replace("||", "|").split("|")
     if len(parts) % 2 == 0:
         raise ValueError("an odd number of bars")
     return "".join(f"norm({part})" if number % 2 else part for number, part in enumerate(parts))
