@@ -39,6 +39,7 @@ MOVED_BASE = 0.30  # x of the master base of the reading `moved_base` [m]
 BRANCHES = ("front_shallow", "front_deep", "back_shallow", "back_deep")
 
 
+@memo()
 def robot() -> DHRobot:
     """DH table of the arm."""
     return load_robot_file(data_path("robots", f"{ROBOT}.yaml"))

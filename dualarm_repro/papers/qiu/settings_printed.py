@@ -130,7 +130,7 @@ def kappa_range(assumed: Assumed) -> Result:
     rules=[
         Bounded(
             "least_difference",
-            "smallest difference of neighbours in the printed order",
+            "smallest difference of neighbours in the printed order, of weights with sum one",
             low=EXACT,
             role=Role.ADOPTS,
         )
@@ -139,7 +139,7 @@ def kappa_range(assumed: Assumed) -> Result:
 def weight_order(assumed: Assumed) -> Result:
     """The weights of the control points are in the printed order."""
     tau, text = assumed["weights"], REGISTRY.printed("qiu.claim_tau_order")["order"]
-    known = {f"tau_{k}": float(weight) for k, weight in enumerate(tau, 1)}
+    known = {f"tau_{k}": weight / sum(tau) for k, weight in enumerate(tau, 1)}
     chain = [known[name] if name in known else float(name) for name in text.split(" > ")]
     least = float(-np.diff(chain).max())
     return Result(

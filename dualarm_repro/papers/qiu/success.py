@@ -202,8 +202,8 @@ def success_and_smoothness(assumed: Assumed) -> Result:
             f"{int(smoother['tip'].sum())} in task space; the median ratio of the mean squared "
             f"curvature is {ratios['joints']:.2g} and {ratios['tip']:.2g}. The smallest singular "
             f"value of the position Jacobian on the way is {least:.3f} m/rad. At the printed "
-            f"start, all joints zero, the smallest of the whole Jacobian is {at_start:.0e}, since axes 4 "
-            "and 6 are aligned there."
+            f"start, all joints zero, the smallest of the whole Jacobian is {at_start:.0e}, since "
+            "axes 4 and 6 are aligned there."
         ),
         witnesses=_cell_witnesses(table, better, rule),
     )

@@ -9,7 +9,7 @@ import pandas as pd
 import pinocchio as pin
 
 from ...errors import InputError
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result, Role
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Result, Role
 from ...ledger.printed import read_number
 from ...planning.control_points import end_effector
 from ...planning.tip_goal import tip_posture
@@ -115,7 +115,7 @@ def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
     samples=32,
     rules=[
         Adopts(key="tcp", to="tcp", label="flange at the goal that is planned to [m]"),
-        Is(key="within_limits", value=True, label="the goal posture is within the joint limits"),
+        Bounded("beyond_limits", "goal posture beyond the joint limits [rad]", high=0.0),
     ],
     change="replaced by a goal that the arm reaches, by the way that the caption states",
 )
@@ -137,7 +137,7 @@ def goal(assumed: Assumed) -> Result:
             "tcp": tip.tolist(),
             "q_deg": np.rad2deg(q).tolist(),
             "branch": assumed["goal_branch"],
-            "within_limits": bool(((q >= lower) & (q <= upper)).all()),
+            "beyond_limits": float(np.maximum(lower - q, q - upper).max()),
             "printed_distance": distance,
             "reach": reach(),
             "beyond_reach": distance - reach(),
