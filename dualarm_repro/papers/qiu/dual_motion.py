@@ -67,6 +67,7 @@ def slave_joints(assumed: Assumed) -> Result:
     "qiu.fig16",
     rules=[
         Bounded("end_error", "distance of the ends to start and goal [m]", high="held"),
+        Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
         NoOriginal(key="curves", label="the curves"),
     ],
 )
@@ -79,6 +80,9 @@ def slave_coordinates(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "end_error": error,
+            "largest_step": float(
+                np.linalg.norm(np.diff(tips["face value"], axis=0), axis=1).max()
+            ),
             "lowest": {name: float(tip[:, 2].min()) for name, tip in tips.items()},
         },
         table=pd.DataFrame(tips["face value"], columns=["x_m", "y_m", "z_m"]),

@@ -291,6 +291,7 @@ def joint_angles(assumed: Assumed) -> Result:
     rules=[
         Bounded("start_error", "distance of the first point to the start [m]", high="held"),
         Bounded("goal_error", "distance of the last point to the goal [m]", high="held"),
+        Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
         NoOriginal(key="curves", label="the curves"),
     ],
 )
@@ -305,6 +306,7 @@ def tip_coordinates(assumed: Assumed) -> Result:
         obtained={
             "start_error": float(ends[0]),
             "goal_error": float(ends[1]),
+            "largest_step": _largest_step(tips["face value"]),
             "lowest": {name: float(tip[:, 2].min()) for name, tip in tips.items()},
         },
         table=table,
@@ -322,6 +324,10 @@ def tip_coordinates(assumed: Assumed) -> Result:
             "sample of the path",
         ),
     )
+
+
+def _largest_step(rows: np.ndarray) -> float:
+    return float(np.linalg.norm(np.diff(rows, axis=0), axis=1).max())
 
 
 def _tip(plan: SearchPlan, path: np.ndarray) -> np.ndarray:
