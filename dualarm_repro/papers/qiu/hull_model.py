@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result
+from ...ledger.printed import read_number
 from ...planning.hull_obstacle import HullTrack, circles_on, hull_track, point_hull
 from ...scene import ConvexHull, PlacedArm
 from ...scene.points import point_capsule
@@ -21,7 +22,7 @@ from ...view.style import MASTER, ORANGE
 from .campaign import JUDGED_BY
 from .operations import operations
 from .readings import circles, link_radii
-from .scenario import SEED, SHOWN_POSTURE, placed
+from .scenario import SEED, placed
 from .studies import PAIR_POINTS, PAIR_RATIOS, PAIRS
 from .witnesses import witnesses
 
@@ -36,12 +37,20 @@ _QUERIES = 2000
     "qiu.fig09",
     rules=[
         Bounded(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
+        Bounded(
+            "beyond_right_angle",
+            "fifth printed angle from a right angle, beyond the printed digits [rad]",
+            high=0.0,
+        ),
         NoOriginal(key="radii", label="the radii of the circles"),
     ],
 )
 def hull_of_the_posture(assumed: Assumed) -> Result:
     """The hull over the circles at the six joint origins in the printed posture."""
-    arm, q = placed("master"), SHOWN_POSTURE * _UNIT[assumed["angle_unit"]]
+    unit = _UNIT[assumed["angle_unit"]]
+    read = [read_number(text) for text in REGISTRY.printed("qiu.fig09")["q"]]
+    arm, q = placed("master"), unit * np.array([value for value, _ in read])
+    beyond = abs(q[4] - 0.5 * np.pi) - unit * read[4][1]
     points = circles_on(arm, circles(assumed), q[np.newaxis])[0]
     hull = ConvexHull(points)
     track = hull_track(points[np.newaxis])
@@ -60,6 +69,7 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "circles_outside": max(outside, 0.0),
+            "beyond_right_angle": float(beyond),
             "volume": hull.volume,
             "vertices": len(hull.vertices),
             "faces": len(hull.faces),

@@ -28,8 +28,6 @@ ALPHA0, THRESHOLD, INFLUENCE = 0.05, 0.4, 0.4
 GOALS = 15
 #: Section 4.2: goal of the slave.
 SLAVE_GOAL = np.array([0.100, -0.400, 0.300])
-#: Section 3.2: the posture of Fig. 9.
-SHOWN_POSTURE = np.array([0.75, 1.0, -1.0, 0.0, 1.57, 0.0])
 
 SEED = 20200527
 FLOOR = 0.0  # the table the arms stand on, for checks of contact

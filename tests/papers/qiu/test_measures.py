@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.kernel import kernel
 from dualarm_repro.papers.qiu.improvements import RATIOS, nearest
 from dualarm_repro.papers.qiu.operations import operations
 from dualarm_repro.papers.qiu.smoothness import bending, until_rest
 from dualarm_repro.planning.hull_obstacle import hull_track, point_hull
 from dualarm_repro.scene.points import point_capsule
+from dualarm_repro.scene.vectors import dot, minus
 
 
 def _arc(count, radius=2.0):
@@ -28,18 +28,11 @@ def test_a_path_that_chatters_at_its_end_is_cut_there():
     assert 18 <= until_rest(path, 0.02) <= 21
 
 
-@kernel
-def _square(x):
-    return x * x
-
-
-@kernel
-def _norm(a, b):
-    return (_square(a) + _square(b)) ** 0.5
-
-
 def test_operations_are_counted_through_every_function_that_is_called():
-    assert operations(_norm, 3.0, 4.0) == 4
+    one, other = (1.0, 2.0, 3.0), (0.5, 0.0, 2.0)
+    assert operations(dot, one, other) == 5
+    assert operations(minus, one, other) == 3
+    assert operations(point_capsule, one, other, (0.0, 0.0, 1.0), 0.1) > 5 + 3
 
 
 def test_cost_of_a_hull_grows_with_its_faces_and_that_of_a_capsule_is_fixed():
