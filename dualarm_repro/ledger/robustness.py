@@ -259,15 +259,15 @@ def _flip(
         others = [choice for choice in assumption.choices if choice != assumption.value]
         found = [(1.0, choice) for choice in others if not kept(choice)][:1]
     else:
-        low, high = assumption.range
-        for end in (low, high):
-            inside = assumption.value
-            for value in np.linspace(assumption.value, end, _SCAN + 1)[1:] if end != inside else ():
-                if not kept(float(value)):
-                    lost = _bisect(kept, inside, float(value))
-                    found.append((abs(lost - assumption.value) / (high - low), lost))
+        nominal_share = assumption.share_of(assumption.value)
+        for end in (0.0, 1.0):
+            inside = nominal_share
+            for share in np.linspace(inside, end, _SCAN + 1)[1:] if end != inside else ():
+                if not kept(assumption.at(share)):
+                    lost = _bisect(lambda s: kept(assumption.at(s)), inside, float(share))
+                    found.append((abs(lost - nominal_share), assumption.at(lost)))
                     break
-                inside = float(value)
+                inside = float(share)
     if not found:
         return {}
     change, value = min(found, key=lambda flip: flip[0])

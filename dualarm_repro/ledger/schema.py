@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from math import log
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -88,6 +89,9 @@ class Assumption(Model):
     range: tuple[float, float] | None = Field(
         default=None, description="plausible range of a numeric value"
     )
+    scale: Literal["linear", "log"] = Field(
+        default="linear", description="log: all factors between the ends of the range count alike"
+    )
     choices: list[Any] | None = Field(default=None, description="plausible alternatives")
 
     @property
@@ -99,8 +103,17 @@ class Assumption(Model):
         """The plausible value at a share in [0, 1) of the range or of the choices."""
         if self.range is not None:
             low, high = self.range
+            if self.scale == "log":
+                return float(low * (high / low) ** share)
             return float(low + share * (high - low))
         return self.choices[int(share * len(self.choices))]
+
+    def share_of(self, value: float) -> float:
+        """Where a value lies in the range, the inverse of :meth:`at`."""
+        low, high = self.range
+        if self.scale == "log":
+            return log(value / low) / log(high / low)
+        return (value - low) / (high - low)
 
     @model_validator(mode="after")
     def _value_is_plausible(self) -> Assumption:
@@ -110,6 +123,8 @@ class Assumption(Model):
                 raise ValueError("range must be [low, high] with low < high")
             if not isinstance(self.value, int | float) or not low <= self.value <= high:
                 raise ValueError("value must be a number inside range")
+            if self.scale == "log" and low <= 0:
+                raise ValueError("a range on a logarithmic scale must be positive")
         if self.choices is not None and self.value not in self.choices:
             raise ValueError("value must be one of choices")
         return self

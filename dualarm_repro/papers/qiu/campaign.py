@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import binomtest
 
+from ...ledger.shares import Share
 from ...planning.bidirectional_compiled import plan_bidirectional_compiled
 from ...planning.contact_check import contact_check
 from ...planning.failure import classify
 from .goals import GoalSet
 from .readings import Variant, master_arm, settings
 from .scenario import START, repelling, truth_scene
+
+#: What the readings of success look at.
+JUDGED_BY = {"planner_and_truth": "truth", "planner": "planner"}
 
 
 @dataclass(frozen=True)
@@ -30,11 +33,9 @@ class Campaign:
     clearance: tuple[float, ...]
 
 
-def campaign(
-    values: Mapping[str, Any], variant: Variant, goals: GoalSet, radius_scale: float = 1.0
-) -> Campaign:
+def campaign(values: Mapping[str, Any], variant: Variant, goals: GoalSet) -> Campaign:
     """Plan to every goal of a set and check every path with whole links."""
-    arm = master_arm(values, radius_scale)
+    arm = master_arm(values)
     scene, chosen, obstacles = truth_scene([arm]), settings(values, variant), repelling()
     planner, truth, searches, clearance = [], [], [], []
     failures: Counter[str] = Counter()
@@ -53,14 +54,20 @@ def campaign(
     return Campaign(tuple(planner), tuple(truth), tuple(searches), dict(failures), tuple(clearance))
 
 
+def rate_of(successes: Any, trials: Any) -> dict[str, float]:
+    """:func:`rate` of counted successes (n,) in counted trials (n,)."""
+    kept, count = int(np.sum(successes)), int(np.sum(trials))
+    return rate([True] * kept + [False] * (count - kept))
+
+
 def rate(outcomes: Sequence[bool]) -> dict[str, float]:
     """Share of successes with its 95 % interval (Wilson)."""
     kept, count = int(np.sum(outcomes)), len(outcomes)
-    interval = binomtest(kept, count).proportion_ci(method="wilson")
+    share = Share.of(kept, count)
     return {
         "successes": kept,
         "of": count,
-        "rate": kept / count,
-        "low": float(interval.low),
-        "high": float(interval.high),
+        "rate": share.value,
+        "low": share.low,
+        "high": share.high,
     }

@@ -7,27 +7,30 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from ...planning.control_points import end_effector
 from ...planning.hull_obstacle import circles_on
 from ...scene import ConvexHull, densify, distances
 from ...view.scene3d import Scene3D
 from ...view.search_curves import coordinate_figure, joint_figure
 from ...view.style import GREEN, MASTER, ORANGE, SLAVE
-from ...view.success_curves import distance_figure
+from ...view.tip_paths import TipPanel, tip_path_figure
 from .execution import both_arms, dual_scene, executed
-from .master_slave import SLAVE_MEETING, dual_readings
-from .readings import DualPlan, circles
+from .master_slave import dual_readings
+from .printed_points import slave_meeting
+from .readings import DualPlan, circles, link_radii
 from .scenario import spheres
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
+_TIMES = 5
 
 
 @checks(
     "qiu.fig15",
-    samples=32,
     rules=[
-        Is(key="joined", value=True, label="the slave's halves meet"),
+        Bounded(
+            "largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"
+        ),
         NoOriginal(key="curves", label="the curves"),
     ],
 )
@@ -38,6 +41,7 @@ def slave_joints(assumed: Assumed) -> Result:
     table = pd.DataFrame(np.rad2deg(face.slave_path), columns=[f"q{j}_deg" for j in range(1, 7)])
     return Result(
         obtained={
+            "largest_step": float(np.abs(np.diff(face.slave_path, axis=0)).max()),
             "joined": face.slave.reached,
             "reconstruction_joined": plans["reconstruction"].slave.reached,
             "range_deg": np.rad2deg(np.ptp(face.slave_path, axis=0)).tolist(),
@@ -61,9 +65,9 @@ def slave_joints(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig16",
-    samples=32,
     rules=[
-        Bounded(key="end_error", high=1e-3, label="distance of the ends to start and goal [m]"),
+        Bounded("end_error", "distance of the ends to start and goal [m]", high="held"),
+        Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
         NoOriginal(key="curves", label="the curves"),
     ],
 )
@@ -76,6 +80,9 @@ def slave_coordinates(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "end_error": error,
+            "largest_step": float(
+                np.linalg.norm(np.diff(tips["face value"], axis=0), axis=1).max()
+            ),
             "lowest": {name: float(tip[:, 2].min()) for name, tip in tips.items()},
         },
         table=pd.DataFrame(tips["face value"], columns=["x_m", "y_m", "z_m"]),
@@ -83,12 +90,12 @@ def slave_coordinates(assumed: Assumed) -> Result:
             f"Coordinates of the slave's flange; its lowest point is at z = "
             f"{tips['face value'][:, 2].min():.3f} m at face value, while the printed halves meet "
             "at z = "
-            f"{SLAVE_MEETING[0, 2]:.3f} m (dashed, dotted). The printed curves are lost."
+            f"{slave_meeting()[0, 2]:.3f} m (dashed, dotted). The printed curves are lost."
         ),
         alt="Three panels with x, y and z of the slave's flange over its path for two readings.",
         figure=lambda: coordinate_figure(
             tips,
-            {"printed, forward": SLAVE_MEETING[0], "printed, backward": SLAVE_MEETING[1]},
+            {"printed, forward": slave_meeting()[0], "printed, backward": slave_meeting()[1]},
             "sample of the path",
         ),
     )
@@ -96,48 +103,75 @@ def slave_coordinates(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig17",
-    samples=32,
     rules=[
-        Is(key="joined", value=True, label="both arms have a path"),
+        Bounded(
+            "apart", "joint distance of a joined pair of halves beyond the tolerance", high=0.0
+        ),
         NoOriginal(key="time_scale", label="a common time scale"),
     ],
 )
 def both_arms_together(assumed: Assumed) -> Result:
     """Distance of the arms over a common motion, and both arms played."""
-    scale, radii = assumed["link_radius_scale"], assumed["link_radii"]
+    radii = link_radii(assumed)
     plans = dual_readings(assumed)
     curves = {
         f"{'arm to arm' if pair == 'master' else 'slave to spheres'}, {name}": _distance(
-            plan, pair, scale
+            plan, pair, radii
         )
         for name, plan in plans.items()
         for pair in ("master", "spheres")
     }
-    face = executed(plans["face value"], radius_scale=scale)
+    face = executed(plans["face value"], radii=radii)
     return Result(
         obtained={
-            "joined": all(
-                p.reached for p in (plans["face value"].master, plans["face value"].slave)
-            ),
+            "apart": max(p.gap for p in (plans["face value"].master, plans["face value"].slave))
+            - assumed["joint_tolerance"],
             "smallest": {name: float(values.min()) for name, values in curves.items()},
             "floor": face.clearance["floor"],
-            "links": len(radii),
         },
         caption=(
             "Smallest distance over the common motion: "
             + "; ".join(f"{name} {1e3 * values.min():.0f} mm" for name, values in curves.items())
             + ". Below zero the links overlap. A common time scale is not printed."
         ),
-        alt="Distances between the arms and from the slave to the spheres over a common motion, in "
-        "two "
-        "readings; the band below zero is shaded.",
-        figure=lambda: distance_figure(curves, "share of the common motion"),
+        table=_motion(plans["face value"], radii),
+        alt="Both arms among the spheres at common times, with the paths of both flanges, in two "
+        "panels for two readings.",
+        figure=lambda: tip_path_figure(
+            [_panel(name, plan) for name, plan in plans.items()], list(spheres().values()), azim=60
+        ),
         scene=lambda: _scene(plans["reconstruction"], assumed),
     )
 
 
-def _distance(plan: DualPlan, other: str, scale: float) -> np.ndarray:
-    scene = dual_scene(scale)
+def _panel(name: str, plan: DualPlan) -> TipPanel:
+    """Both arms at common times, and the paths of their flanges."""
+    paths = dict(zip(("master", "slave"), both_arms(plan), strict=True))
+    arms = {placed.name: placed for placed in dual_scene(master_goal=plan.master_goal).arms}
+    times = np.linspace(0, len(paths["master"]) - 1, _TIMES).round().astype(int)
+    return TipPanel(
+        name,
+        {arm: end_effector(arms[arm], path) for arm, path in paths.items()},
+        [(arms[arm], path[k]) for arm, path in paths.items() for k in times],
+        {},
+    )
+
+
+def _motion(plan: DualPlan, radii: tuple[float, ...]) -> pd.DataFrame:
+    """Joints of both arms on common samples and the smallest distance between them there."""
+    scene, (master, slave) = dual_scene(radii, plan.master_goal), both_arms(plan)
+    found = distances(scene, scene.stack(master=master, slave=slave))
+    columns = {
+        f"{name}_q{j}_deg": np.rad2deg(path[:, j - 1])
+        for name, path in (("master", master), ("slave", slave))
+        for j in range(1, 7)
+    }
+    pairs = scene.pairs.between("slave", "master")
+    return pd.DataFrame(columns | {"arm_to_arm_m": found[:, pairs].min(axis=1)})
+
+
+def _distance(plan: DualPlan, other: str, radii: tuple[float, ...]) -> np.ndarray:
+    scene = dual_scene(radii, plan.master_goal)
     master, slave = both_arms(plan)
     q, _ = densify(scene.stack(master=master, slave=slave), 0.02)
     found = distances(scene, q)
@@ -149,7 +183,7 @@ def _distance(plan: DualPlan, other: str, scale: float) -> np.ndarray:
 def _scene(plan: DualPlan, assumed: Assumed) -> Scene3D:
     """Both arms played by the time map, with the hull of the master at its middle pose."""
     master, slave = both_arms(plan)
-    arms = {placed.name: placed for placed in dual_scene().arms}
+    arms = {placed.name: placed for placed in dual_scene(master_goal=plan.master_goal).arms}
     made = Scene3D(
         "Both arms on their paths (reconstruction); translucent: hull of the master at its middle "
         "pose.",

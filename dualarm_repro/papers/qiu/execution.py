@@ -8,14 +8,15 @@ from ...planning.contact_check import ContactCheck, contact_check
 from ...planning.time_map import along_path, replay, time_map
 from ...scene import Scene
 from ...tracking import memo
-from .readings import DualPlan
+from .readings import DualPlan, master_arm
 from .scenario import placed, truth_scene
 
 
 @memo(8)
-def dual_scene(radius_scale: float = 1.0) -> Scene:
-    """Both arms, spheres and table; links thicker by a factor."""
-    return truth_scene([placed(n, radius_scale=radius_scale) for n in ("master", "slave")])
+def dual_scene(radii: tuple[float, ...] | None = None, master_goal: str = "pulled_back") -> Scene:
+    """Both arms, spheres and table; links of other radii, the master as its goal is read."""
+    master = master_arm({"master_goal": master_goal}, radii)
+    return truth_scene([master, placed("slave", radii=radii)])
 
 
 def both_arms(
@@ -37,9 +38,12 @@ def both_arms(
 
 
 def executed(
-    plan: DualPlan, how: str = "time map", shift: int = 0, radius_scale: float = 1.0
+    plan: DualPlan,
+    how: str = "time map",
+    shift: int = 0,
+    radii: tuple[float, ...] | None = None,
 ) -> ContactCheck:
     """Contact of whole links while both arms move."""
     master, slave = both_arms(plan, how, shift)
-    scene = dual_scene(radius_scale)
+    scene = dual_scene(radii, plan.master_goal)
     return contact_check(scene, scene.stack(master=master, slave=slave))

@@ -10,6 +10,8 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger.formula import parse
+from ...ledger.printed import EXACT
 from ...planning.bidirectional import repulsive_torque, surroundings_at
 from ...planning.bidirectional_settings import Threshold
 from ...planning.joint_attraction import conic_force, conic_potential
@@ -20,23 +22,18 @@ from ...planning.repulsive_force import (
 from ...planning.search_problem import SearchProblem, search_problem
 from ...view.force_field import force_field_figure
 from ...view.tip_paths import TipPanel, tip_path_figure
-from .readings import (
-    CONTROL_POINTS,
-    TRADITIONAL_VARIANT,
-    settings,
-)
+from ..wording import point
+from .printed_formula import value_of
+from .readings import CONTROL_POINTS, TRADITIONAL_VARIANT, master_arm, master_posture, settings
+from .readings import TRADITIONAL as TRADITIONAL_READS
 from .scenario import (
     ETA0,
     INFLUENCE,
-    MASTER_GOAL,
     SEED,
     START,
     THRESHOLD,
     ZETA,
-    branch_posture,
-    lengths,
     placed,
-    pulled_back,
     repelling,
     spheres,
 )
@@ -44,7 +41,6 @@ from .scenario import (
 checks = partial(REGISTRY.checks, page="qiu/field")
 _CONTACT = 1e-3
 _SAMPLES = 40
-_UNIT = {"rad": 1.0, "deg": np.pi / 180.0}
 _LOST = "the formula"
 
 
@@ -94,36 +90,33 @@ def principle(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.fig05",
-    samples=32,
     rules=[
         Is(key="joints", to="joints", label="joints whose origins are the control points"),
+        Is("distinct", "the control points are distinct", value=True),
         NoOriginal(key="positions", label="where the origins of the joints are"),
     ],
 )
 def control_points(assumed: Assumed) -> Result:
     """The three control points on the arm at zero joints."""
-    frames, radii, _ = CONTROL_POINTS[assumed["control_points"]]
+    frames, radii, _, joints = CONTROL_POINTS[assumed["control_points"]]
     arm = placed("master")
     origins = arm.arm.joint_positions(START) @ arm.placement.rotation.T + arm.placement.translation
     points = origins[np.array(frames) - 1]
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    joint = {3: "3", 4: "4", 5: "5", 7: "6"}
-    known = max(abs(lengths()[key] - value) for key, value in assumed["link_lengths"].items())
     panel = TipPanel("control points at zero joints", {}, [(arm, START)], {"control point": points})
     return Result(
         obtained={
-            "joints": {f"O{k}": joint[frame] for k, frame in enumerate(frames, 1)},
+            "joints": {f"O{k}": joint for k, joint in enumerate(joints, 1)},
             "points": points.tolist(),
             "radii": list(radii),
-            "least_distance": float(apart[~np.eye(len(points), dtype=bool)].min()),
-            "length_difference": known,
+            "distinct": bool(apart[~np.eye(len(points), dtype=bool)].min() > EXACT),
         },
         caption=(
-            "Origins of joints 3, 5 and 6 where a robot description puts them: elbow, wrist centre "
-            "and "
-            "flange. Under a modified table the last two would be one point, and the printed order "
-            "of "
-            "three weights would have nothing to tell apart. The drawing is lost."
+            f"Control points as origins of joints {', '.join(joints)}: "
+            + "; ".join(f"({point(row, 3)}) m" for row in points)
+            + ". Under a modified table the last two of the printed three would be one point, and "
+            "the printed order of three weights would have nothing to tell apart. The drawing is "
+            "lost."
         ),
         alt="Stick figure of the arm at zero joints with three marked points: elbow, wrist and "
         "flange.",
@@ -140,32 +133,37 @@ def control_points(assumed: Assumed) -> Result:
     ],
 )
 def resultant(assumed: Assumed) -> Result:
-    """F = -grad(U_att + U_rep) on postures along the way, by central differences."""
-    made = _problem(_PLAIN)
-    goal = made.goal
-    worst = 0.0
+    """The printed sides on postures along the way, slopes by central differences."""
+    formula = parse(REGISTRY.printed("qiu.eq04")["formula"])
+    made = _problem(_nominal())
+    goal, worst = made.goal, 0.0
     for q in _postures(goal):
-        force = conic_force(q, goal, ZETA, THRESHOLD, Threshold.NORM) + _torque(made, q)
-        numeric = -_gradient(
-            lambda x: (
-                conic_potential(x, goal, ZETA, THRESHOLD, Threshold.NORM) + _repulsive(made, x)
-            ),
-            q,
-        )
-        worst = max(worst, float(np.linalg.norm(force - numeric) / np.linalg.norm(numeric)))
+        pull = conic_force(q, goal, ZETA, THRESHOLD, Threshold.NORM)
+        push = _torque(made, q)
+        given = {
+            "F": pull + push,
+            "F_att": pull,
+            "F_rep": push,
+            "U_att": lambda x: conic_potential(x, goal, ZETA, THRESHOLD, Threshold.NORM),
+            "U_rep": lambda x: _repulsive(made, x),
+            "grad": partial(_gradient, x=q),
+        }
+        sides = [value_of(formula, k, given) for k in range(3)]
+        size = float(np.linalg.norm(pull + push))
+        gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
+        worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
     return Result(
         obtained={"difference": worst, "postures": _SAMPLES},
         caption=(
-            f"On {_SAMPLES} postures between start and goal the resultant is the negative slope of "
-            "the "
-            f"summed potentials to a relative {worst:.0e}, by central differences."
+            f"On {_SAMPLES} postures between start and goal the printed sides, the sum of both "
+            "forces and the negative slopes of both potentials, agree with the resultant of the "
+            f"code to a relative {worst:.0e}, by central differences."
         ),
     )
 
 
 @checks(
     "qiu.eq05",
-    samples=32,
     rules=[
         Bounded(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
         Bounded(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
@@ -173,63 +171,62 @@ def resultant(assumed: Assumed) -> Result:
     ],
 )
 def attractive_potential(assumed: Assumed) -> Result:
-    """Quadratic inside the threshold, conic outside, smooth across it."""
-    measure, unit = Threshold(assumed["attraction_form"]), _UNIT[assumed["angle_unit"]]
-    d, goal = THRESHOLD * unit, np.zeros(6)
-    ray = np.eye(6)[0]
-
-    def value(r: float) -> float:
-        return conic_potential(r * ray, goal, ZETA, d, measure)
-
-    step = 1e-4 * d
-    inner, outer = (value(d) - value(d - step)) / step, (value(d + step) - value(d)) / step
-    jump = abs(outer - inner) / (ZETA * d) - 0.5 * step / d
-    second = value(3 * d) - 2 * value(2.5 * d) + value(2 * d)
+    """Quadratic inside the threshold, conic outside, smooth across it, by either measure."""
+    d, goal, ray = THRESHOLD, np.zeros(6), np.eye(6)[0]
+    step, jumps, growths = 1e-4 * d, [], []
+    for measure in Threshold:
+        near, inside, at, outside, mid, far = (
+            conic_potential(r * ray, goal, ZETA, d, measure)
+            for r in (2 * d, d - step, d, d + step, 2.5 * d, 3 * d)
+        )
+        slopes = (at - inside) / step, (outside - at) / step
+        jumps.append(abs(slopes[1] - slopes[0]) / (ZETA * d) - 0.5 * step / d)
+        growths.append(abs(far - 2 * mid + near) / at)
     return Result(
-        obtained={
-            "jump": max(jump, 0.0),
-            "growth_far": abs(second) / value(d),
-            "at_threshold": value(d),
-        },
+        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)},
         caption=(
             "The reconstructed attraction is half a square inside the threshold and grows linearly "
-            "outside, with equal value and slope at the threshold. The printed formula is lost."
+            f"outside; at the threshold the slope jumps by {max(*jumps, 0.0):.0e} of its value, "
+            "whether the threshold applies to the norm of the error or to each joint. The printed "
+            "formula is lost."
         ),
     )
 
 
 @checks(
     "qiu.eq06",
-    samples=32,
     rules=[
         Bounded(key="difference", high=1e-6, label="force against finite differences, relative"),
-        Bounded(key="largest_over_bound", high=1.0 + 1e-12, label="largest force over its bound"),
+        Bounded(key="beyond_bound", high=1e-12, label="largest force beyond its bound, relative"),
         NoOriginal(key="formula", label=_LOST),
     ],
 )
 def attractive_force(assumed: Assumed) -> Result:
-    """The negative gradient of (5); the threshold bounds it."""
-    measure, unit = Threshold(assumed["attraction_form"]), _UNIT[assumed["angle_unit"]]
-    d, goal = THRESHOLD * unit, np.zeros(6)
+    """The negative gradient of (5); the threshold bounds it, by either measure."""
+    d, goal = THRESHOLD, np.zeros(6)
     rows = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (_SAMPLES, 6))
-    forces = [conic_force(q, goal, ZETA, d, measure) for q in rows]
-    numeric = [-_gradient(lambda x: conic_potential(x, goal, ZETA, d, measure), q) for q in rows]
-    bound = d * ZETA * (1.0 if measure is Threshold.NORM else np.sqrt(6.0))
-    worst = max(float(np.linalg.norm(f - n) / bound) for f, n in zip(forces, numeric, strict=True))
-    largest = max(float(np.linalg.norm(f)) for f in forces)
+    worst, largest, bounds = 0.0, 0.0, {}
+    for measure in Threshold:
+        bound = bounds[str(measure)] = d * ZETA * np.sqrt(6.0 if measure != "norm" else 1.0)
+        for q in rows:
+            force = conic_force(q, goal, ZETA, d, measure)
+            slope = _gradient(partial(conic_potential, goal=goal, gain=ZETA, threshold=d,
+                                      measure=measure), q)  # fmt: skip
+            worst = max(worst, float(np.linalg.norm(force + slope)) / bound)
+            largest = max(largest, float(np.linalg.norm(force)) / bound)
     return Result(
-        obtained={"difference": worst, "largest_over_bound": largest / bound, "bound": bound},
+        obtained={"difference": worst, "beyond_bound": largest - 1.0, "bounds": bounds},
         caption=(
             f"The attraction is the negative slope of (5) to {worst:.0e} and never exceeds "
-            f"{bound:g}, "
-            "which is what the threshold is introduced for. The printed formula is lost."
+            f"{bounds['norm']:g} where the threshold applies to the norm of the error and "
+            f"{bounds['per_joint']:.0f} where it applies to each joint. The printed formula is "
+            "lost."
         ),
     )
 
 
 @checks(
     "qiu.eq07",
-    samples=32,
     rules=[
         Bounded(key="at_range", high=1e-12, label="value at the end of the range"),
         Is(key="grows", value=True, label="it grows without bound towards the obstacle"),
@@ -240,13 +237,10 @@ def repulsive_potential(assumed: Assumed) -> Result:
     """Zero at the end of the range, unbounded at the obstacle."""
     rho = np.array([1e-6, 1e-4, 1e-2, 0.1, 0.3, INFLUENCE, 1.0])
     values = inverse_distance_potential(rho, ETA0, INFLUENCE)
-    points, sources = assumed["control_points"], assumed["repulsion_sources"]
     return Result(
         obtained={
             "at_range": float(values[-2:].max()),
             "grows": bool((np.diff(values) <= 0).all() and values[0] > 1e6 * values[2]),
-            "control_points": len(CONTROL_POINTS[points][0]),
-            "sources": sources,
         },
         table=pd.DataFrame({"rho_m": rho, "potential": values}),
         caption=(
@@ -259,7 +253,6 @@ def repulsive_potential(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq08",
-    samples=32,
     rules=[
         Bounded(
             key="direction", high=1e-9, label="printed direction against the slope of the distance"
@@ -270,17 +263,17 @@ def repulsive_potential(assumed: Assumed) -> Result:
 )
 def repulsive_force(assumed: Assumed) -> Result:
     """The printed gradient of the distance, and the force as the slope of (7)."""
-    made = _problem({**_PLAIN, **_fields(assumed)})
+    formula = parse(REGISTRY.printed("qiu.eq08")["gradient"])
+    made = _problem(_nominal())
     worst, direction = 0.0, 0.0
     for q in _postures(made.goal):
         found = surroundings_at(made, 0, q, 0)
         for k, m in zip(*np.nonzero(found.acting(made.settings.repulsion.sources)), strict=True):
             sphere = list(spheres().values())[m]
             foot = sphere.center + sphere.radius * _unit(found.points[k] - sphere.center)
-            direction = max(
-                direction,
-                float(np.linalg.norm(_unit(found.points[k] - foot) - found.outward[k, m])),
-            )
+            printed = value_of(formula, 1, {"a_i": found.points[k], "O_s": foot})
+            gap = float(np.linalg.norm(printed - found.outward[k, m]))
+            direction = max(direction, gap if np.isfinite(gap) else np.inf)
             rho = float(found.distance[k, m])
             if rho < INFLUENCE - 1e-3:
                 slope = _gradient(
@@ -293,17 +286,15 @@ def repulsive_force(assumed: Assumed) -> Result:
         obtained={"direction": direction, "slope": worst},
         caption=(
             "The printed direction from the nearest obstacle point to the control point is the "
-            "slope of "
-            f"the distance to {direction:.0e}; with the factor of the textbook the force is the "
-            "negative "
-            f"slope of (7) to {worst:.0e}. The factor is not in the text edition."
+            f"slope of the distance in the code to {direction:.0e}; with the factor of the "
+            f"textbook the force is the negative slope of (7) to {worst:.0e}. The factor is not in "
+            "the text edition."
         ),
     )
 
 
 @checks(
     "qiu.eq09",
-    samples=32,
     rules=[
         Bounded(
             key="difference", high=1e-5, label="joint forces against finite differences, relative"
@@ -312,45 +303,34 @@ def repulsive_force(assumed: Assumed) -> Result:
     ],
 )
 def joint_forces(assumed: Assumed) -> Result:
-    """The sum of transposed velocity Jacobians times point forces."""
-    made = _problem({**_PLAIN, **_fields(assumed)})
+    """The sum of transposed velocity Jacobians times point forces, for every control point set."""
+    cases = [("elbow_wrist_flange", "nearest"), *((points, "sum") for points in CONTROL_POINTS)]
     worst = 0.0
-    for q in _postures(made.goal):
-        torque, numeric = _torque(made, q), -_gradient(lambda x: _repulsive(made, x), q)
-        if np.linalg.norm(numeric) > 1.0:
-            worst = max(worst, float(np.linalg.norm(torque - numeric) / np.linalg.norm(numeric)))
+    for points, sources in cases:
+        made = _problem({**_nominal(), "control_points": points, "repulsion_sources": sources})
+        for q in _postures(made.goal):
+            torque, numeric = _torque(made, q), -_gradient(partial(_repulsive, made), q)
+            if np.linalg.norm(numeric) > 1.0:
+                gap = float(np.linalg.norm(torque - numeric) / np.linalg.norm(numeric))
+                worst = max(worst, gap)
     return Result(
-        obtained={"difference": worst},
+        obtained={"difference": worst, "cases": len(cases)},
         caption=(
-            f"Carried over by transposed Jacobians, the point forces are the negative slope of the "
-            f"repulsive potential over the joints, to a relative {worst:.0e}. The printed formula "
-            "is lost."
+            "Carried over by transposed Jacobians, the point forces are the negative slope of the "
+            f"repulsive potential over the joints, to a relative {worst:.0e}, for every set of "
+            "control points. The printed formula is lost."
         ),
     )
 
 
-_PLAIN: dict[str, Any] = {
-    "attraction_form": "norm",
-    "repulsion_sources": "nearest",
-    "control_points": "elbow_wrist_flange",
-    "gain_ratio": ETA0 / ZETA,
-    "step_rule": "unit_vector",
-    "joint_tolerance": 0.05,
-    "search_cap": 1,
-    "stuck_rule": 1,
-}
-
-
-def _fields(assumed: Assumed) -> dict[str, Any]:
-    return {name: assumed[name] for name in ("control_points", "repulsion_sources")}
+def _nominal() -> dict[str, Any]:
+    return {name: REGISTRY.assumption(f"qiu.{name}") for name in TRADITIONAL_READS}
 
 
 def _problem(values: dict[str, Any]) -> SearchProblem:
     """The master between start and pulled-back goal, for evaluating terms."""
-    arm = placed("master")
-    inside = pulled_back(MASTER_GOAL, arm.placement.translation, 0.63)
-    goal = branch_posture(arm, inside, "front_shallow")
-    return search_problem(arm, START, goal, repelling(), settings(values, TRADITIONAL_VARIANT))
+    goal, chosen = master_posture(values), settings(values, TRADITIONAL_VARIANT)
+    return search_problem(master_arm(values), START, goal, repelling(), chosen)
 
 
 def _postures(goal: np.ndarray) -> np.ndarray:

@@ -13,6 +13,8 @@ from ...scene import distances
 from .readings import master_arm, master_posture
 from .scenario import GOALS, branch_posture, truth_scene
 
+_MOST_DRAWS = 1000
+
 
 @dataclass(frozen=True, eq=False)
 class GoalSet:
@@ -27,7 +29,8 @@ def draw_goals(values: Mapping[str, Any], seed: int, count: int = GOALS) -> Goal
     """Uniform draws from the box of half width ``goal_set`` around the master's goal.
 
     A draw is rejected where no posture of the branch reaches it, where that is outside the joint
-    limits, or where the arm touches something at it.
+    limits, or where the arm touches something at it. The set is smaller than ``count`` where a
+    thousand draws do not fill it.
     """
     arm = master_arm(values)
     scene = truth_scene([arm])
@@ -36,7 +39,9 @@ def draw_goals(values: Mapping[str, Any], seed: int, count: int = GOALS) -> Goal
     rng = np.random.default_rng(seed)
     rejected: Counter[str] = Counter({"beyond reach": 0, "outside limits": 0, "in contact": 0})
     postures, points = [], []
-    while len(postures) < count:
+    for _ in range(_MOST_DRAWS):
+        if len(postures) == count:
+            break
         point = centre + values["goal_set"] * rng.uniform(-1.0, 1.0, 3)
         q = branch_posture(arm, point, values["goal_branch"], values["goal_wrist"])
         if q is None:
@@ -48,4 +53,5 @@ def draw_goals(values: Mapping[str, Any], seed: int, count: int = GOALS) -> Goal
         else:
             postures.append(q)
             points.append(point)
-    return GoalSet(np.array(postures), np.array(points), dict(rejected))
+    q, found = (np.array(rows).reshape(-1, n) for rows, n in ((postures, 6), (points, 3)))
+    return GoalSet(q, found, dict(rejected))

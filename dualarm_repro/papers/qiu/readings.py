@@ -20,6 +20,7 @@ from ...planning.time_map import hull_tracks
 from ...planning.tip_goal import nearest_posture
 from ...scene import PlacedArm
 from ...tracking import memo
+from .printed_points import trap
 from .scenario import (
     ALPHA0,
     BRANCHES,
@@ -30,12 +31,12 @@ from .scenario import (
     START,
     THRESHOLD,
     TOOL,
-    TRAP,
     ZETA,
     branch_posture,
     placed,
     pulled_back,
     repelling,
+    wrist_reach,
 )
 
 GOAL = ("master_goal", "goal_radius", "goal_branch", "goal_wrist")
@@ -62,11 +63,21 @@ SLAVE = (
 #: Origins of joints as the arm's robot description has them: base, shoulder, elbow, forearm root,
 #: wrist centre, flange are frames 1 ... 5 and 7 here.
 HULL_FRAMES = (1, 2, 3, 4, 5, 7)
+#: Frames of the control points, radii [m], which weight each has, and as origin of which joint its
+#: reading counts it.
 CONTROL_POINTS = {
-    "elbow_wrist_flange": ((3, 5, 7), (0.0, 0.0, 0.0), (0, 1, 2)),
-    "elbow_wrist": ((3, 5), (0.0, 0.0), (1, 2)),
-    "four_with_link_radii": ((3, 4, 5, 7), (0.075, 0.07, 0.055, 0.04), (0, 0, 1, 2)),
+    "elbow_wrist_flange": ((3, 5, 7), (0.0, 0.0, 0.0), (0, 1, 2), ("3", "5", "6")),
+    "standard_frames": ((4, 5, 7), (0.0, 0.0, 0.0), (0, 1, 2), ("3", "5", "6")),
+    "elbow_wrist": ((3, 5), (0.0, 0.0), (1, 2), ("3", "5")),
+    "four_with_link_radii": (
+        (3, 4, 5, 7),
+        (0.075, 0.07, 0.055, 0.04),
+        (0, 0, 1, 2),
+        ("3", "4", "5", "6"),
+    ),
 }
+#: Share of its reach at which a posture still bends the elbow.
+_BENT = 0.9995
 
 
 @dataclass(frozen=True)
@@ -96,7 +107,7 @@ VARIANTS = tuple(
 
 def settings(values: Mapping[str, Any], variant: Variant) -> BidirectionalSettings:
     """Settings of a search; reads only what the variant needs."""
-    frames, radii, weight_of = CONTROL_POINTS[values["control_points"]]
+    frames, radii, weight_of, _ = CONTROL_POINTS[values["control_points"]]
     if values["step_rule"] != "unit_vector":
         raise ValueError("the step follows the unit vector of the force")
     gain, step = {}, {"length": ALPHA0}
@@ -134,18 +145,26 @@ def settings(values: Mapping[str, Any], variant: Variant) -> BidirectionalSettin
     )
 
 
-def master_arm(values: Mapping[str, Any], radius_scale: float = 1.0) -> PlacedArm:
+def link_radii(values: Mapping[str, Any]) -> tuple[float, ...]:
+    """Radii of the link capsules as assumed [m]."""
+    return tuple(values["link_radius_scale"] * radius for radius in values["link_radii"])
+
+
+def master_arm(values: Mapping[str, Any], radii: tuple[float, ...] | None = None) -> PlacedArm:
     """The master on its base, with the change to arm or base that the reading of its goal makes."""
     mode = values["master_goal"]
     base = np.array([MOVED_BASE, 0.0, 0.0]) if mode == "moved_base" else None
     tool = TOOL if mode == "longer_tool" else 0.0
-    return placed("master", base=base, tool=tool, radius_scale=radius_scale)
+    return placed("master", base=base, tool=tool, radii=radii)
 
 
 def master_posture(values: Mapping[str, Any]) -> np.ndarray:
-    """Goal of the master (6,) [rad] under the reading of its goal, radius, branch and wrist."""
+    """Goal of the master (6,) [rad] under the reading of its goal, radius, branch and wrist.
+
+    The radius is cut to what the arm reaches with the wrist.
+    """
     arm, branch, wrist = master_arm(values), values["goal_branch"], values["goal_wrist"]
-    base, radius = arm.placement.translation, values["goal_radius"]
+    base, radius = arm.placement.translation, _radius(arm, values["goal_radius"], wrist)
     inside = pulled_back(MASTER_GOAL, base, radius)
     match values["master_goal"]:
         case "pulled_back":
@@ -158,7 +177,11 @@ def master_posture(values: Mapping[str, Any]) -> np.ndarray:
     return branch_posture(arm, inside, branch, wrist) if found is None else found
 
 
-@memo()
+def _radius(arm: PlacedArm, radius: float, wrist: Sequence[float]) -> float:
+    return min(radius, _BENT * wrist_reach(arm, wrist))
+
+
+@memo(512)
 def _best_effort(branch: str, radius: float, wrist: tuple[float, ...]) -> np.ndarray:
     arm = placed("master")
     near = branch_posture(
@@ -188,6 +211,12 @@ def _master_plan(values: Mapping[str, Any], variant: Variant) -> SearchPlan:
     )
 
 
+def plan_to(values: Mapping[str, Any], variant: Variant, goal: np.ndarray) -> SearchPlan:
+    """Master from its start to another goal (6,) [rad]."""
+    chosen = settings(values, variant)
+    return plan_bidirectional_compiled(master_arm(values), START, goal, repelling(), chosen)
+
+
 def traditional_plan(values: Mapping[str, Any]) -> SearchPlan:
     """Master from its start to its goal, one-sided, constant gain and step."""
     return _master_plan(values, TRADITIONAL, TRADITIONAL_VARIANT)
@@ -201,12 +230,6 @@ def variable_gain_plan(values: Mapping[str, Any]) -> SearchPlan:
 def improved_plan(values: Mapping[str, Any]) -> SearchPlan:
     """Master from both ends with all improvements."""
     return _master_plan(values, IMPROVED, IMPROVED_VARIANT)
-
-
-def constant_step_plan(values: Mapping[str, Any]) -> SearchPlan:
-    """Master from both ends without the adaptive step."""
-    names = tuple(name for name in IMPROVED if name not in STEP)
-    return _master_plan(values, names, Variant(True, False, True))
 
 
 def smooth(values: Mapping[str, Any], plan: SearchPlan) -> np.ndarray:
@@ -231,16 +254,14 @@ def slave_postures(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 
 def slave_posture(values: Mapping[str, Any]) -> np.ndarray:
-    """Goal of the slave (6,) [rad]: the posture that the assumed angles round."""
-    wanted = np.deg2rad(values["slave_branch"])
-    found = slave_postures(values).values()
-    return min(found, key=lambda q: float(np.linalg.norm(q[:3] - wanted)))
+    """Goal of the slave (6,) [rad] on the assumed branch."""
+    return slave_postures(values)[values["slave_branch"]]
 
 
 @dataclass(frozen=True, eq=False)
 class DualPlan:
-    """Master and slave: the searches, their smoothed paths (N, 6) and the spread of the
-    schedule.
+    """Master and slave: the searches, their smoothed paths (N, 6), the spread of the schedule
+    and the reading of the master's goal.
     """
 
     master: SearchPlan
@@ -248,6 +269,7 @@ class DualPlan:
     master_path: np.ndarray
     slave_path: np.ndarray
     spread: int
+    master_goal: str
 
 
 @_memo
@@ -264,7 +286,7 @@ def _dual_plan(values: Mapping[str, Any]) -> DualPlan:
         settings(values, IMPROVED_VARIANT),
         hull_tracks(master_arm(values), path, circles(values), spread),
     )
-    return DualPlan(master, slave, path, smooth(values, slave), spread)
+    return DualPlan(master, slave, path, smooth(values, slave), spread, values["master_goal"])
 
 
 def dual_plan(values: Mapping[str, Any]) -> DualPlan:
@@ -274,13 +296,14 @@ def dual_plan(values: Mapping[str, Any]) -> DualPlan:
 
 @memo()
 def balance_ratio(branch: str = "front_shallow") -> float:
-    """eta_0/zeta at which repulsion of the flange at the printed trap equals the largest
+    """eta_0/zeta at which repulsion of the flange at the printed trap is as large as the largest
     attraction.
 
-    d zeta = |J^T F_rep| with the flange at the trap, wrist angles zero; independent of any run.
+    d zeta = |J^T F_rep| with the flange at the trap, wrist angles zero. Sizes are compared, not
+    directions: it is a scale taken from one printed point, and no balance of forces.
     """
     arm = placed("master")
-    q = branch_posture(arm, TRAP, branch)
+    q = branch_posture(arm, trap(), branch)
     chosen = BidirectionalSettings(
         attraction={"gain": 1.0, "threshold": THRESHOLD},
         repulsion={"gain": 1.0, "influence": INFLUENCE},
@@ -294,7 +317,7 @@ def balance_ratio(branch: str = "front_shallow") -> float:
 
 
 def reconstructed(values: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
-    """The values of an honest reconstruction: the gain ratio that the printed trap implies, and
-    control points that carry the thickness of their links; everything else as assumed."""
+    """The second reading: the gain ratio of the scale that the printed trap gives, and control
+    points that carry the thickness of their links; everything else as assumed."""
     changes = {"gain_ratio": balance_ratio(), "control_points": "four_with_link_radii"}
     return {name: values[name] for name in names} | changes

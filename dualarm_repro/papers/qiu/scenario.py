@@ -28,11 +28,6 @@ ALPHA0, THRESHOLD, INFLUENCE = 0.05, 0.4, 0.4
 GOALS = 15
 #: Section 4.2: goal of the slave.
 SLAVE_GOAL = np.array([0.100, -0.400, 0.300])
-#: Section 3.2: the posture of Fig. 9.
-SHOWN_POSTURE = np.array([0.75, 1.0, -1.0, 0.0, 1.57, 0.0])
-#: Printed points to compare with: where the one-way search is trapped, where the halves end.
-TRAP = np.array([0.033, 0.100, 0.783])
-MEETING = np.array([[0.031, 0.173, 0.815], [0.038, 0.162, 0.826]])
 
 SEED = 20200527
 FLOOR = 0.0  # the table the arms stand on, for checks of contact
@@ -42,6 +37,7 @@ MOVED_BASE = 0.30  # x of the master base of the reading `moved_base` [m]
 BRANCHES = ("front_shallow", "front_deep", "back_shallow", "back_deep")
 
 
+@memo()
 def robot() -> DHRobot:
     """DH table of the arm."""
     return load_robot_file(data_path("robots", f"{ROBOT}.yaml"))
@@ -59,16 +55,21 @@ def lengths() -> dict[str, float]:
     }
 
 
-@memo()
-def arm_in_use(tool: float = 0.0, radius_scale: float = 1.0) -> Arm:
-    """The arm, its flange moved out by ``tool`` [m] and its links thicker by a factor."""
-    if tool == 0.0 and radius_scale == 1.0:
+@memo(64)
+def arm_in_use(tool: float = 0.0, radii: tuple[float, ...] | None = None) -> Arm:
+    """The arm, its flange moved out by ``tool`` [m] and its links of other ``radii`` [m]."""
+    if tool == 0.0 and radii is None:
         return load_arm(ROBOT)
     made = robot()
     joints = [*made.joints[:-1], made.joints[-1].model_copy(update={"d": made.joints[-1].d + tool})]
-    capsules = [c.model_copy(update={"radius": c.radius * radius_scale}) for c in made.capsules]
+    used = [c.radius for c in made.capsules] if radii is None else radii
+    capsules = [
+        capsule.model_copy(update={"radius": radius})
+        for capsule, radius in zip(made.capsules, used, strict=True)
+    ]
     changed = made.model_copy(update={"joints": joints, "capsules": capsules})
-    return Arm.from_dh(f"{ROBOT}-{tool:g}-{radius_scale:g}", changed)
+    thick = "" if radii is None else "-" + "-".join(f"{radius:g}" for radius in radii)
+    return Arm.from_dh(f"{ROBOT}-{tool:g}{thick}", changed)
 
 
 def placed(
@@ -77,12 +78,12 @@ def placed(
     yaw: float = 90.0,
     base: np.ndarray | None = None,
     tool: float = 0.0,
-    radius_scale: float = 1.0,
+    radii: tuple[float, ...] | None = None,
 ) -> PlacedArm:
     """An arm on its printed base, or on another one; ``yaw`` in degrees."""
     rotation = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(yaw))
     origin = BASES[name] if base is None else base
-    return PlacedArm(name, arm_in_use(tool, radius_scale), pin.SE3(rotation, origin.copy()))
+    return PlacedArm(name, arm_in_use(tool, radii), pin.SE3(rotation, origin.copy()))
 
 
 def shoulder(base: np.ndarray) -> np.ndarray:
@@ -125,21 +126,20 @@ def branch_posture(
     """q (6,) with the flange at a point and given wrist angles, on a named branch; None beyond
     reach.
 
-    With q4 = 0 the arm is a chain of two links in the vertical plane of axis 1: the upper arm, and
-    forearm and wrist as one. ``front`` faces the point, ``back`` reaches over the shoulder;
-    ``deep`` bends the elbow the other way than ``shallow``.
+    The arm is a chain of two links in a vertical plane: the upper arm, and forearm and wrist as
+    one, whose flange a rolled wrist puts ``aside`` of the plane. ``front`` faces the point,
+    ``back`` reaches over the shoulder; ``deep`` bends the elbow the other way than ``shallow``.
     """
-    size, (roll, bend, twist) = lengths(), wrist
-    if roll != 0.0:
-        return None
-    tool = float(np.linalg.norm(arm.arm.chain.translation[-1]))
-    along = size["d4"] + tool * np.cos(bend)
-    across = size["a3"] - tool * np.sin(bend)
-    outer, lag = float(np.hypot(along, across)), float(np.arctan2(across, along))
+    size, twist = lengths(), wrist[2]
+    roll, bend = wrist[0], wrist[1]
+    outer, lag, aside = _outer_link(arm, wrist)
     yaw = pin.rpy.matrixToRpy(arm.placement.rotation)[2]
     x, y, z = point - shoulder(arm.placement.translation)
     back = branch.startswith("back")
-    radius = -np.hypot(x, y) if back else np.hypot(x, y)
+    flat = x**2 + y**2 - aside**2
+    if flat < 0.0:
+        return None
+    radius = -np.sqrt(flat) if back else np.sqrt(flat)
     square = radius**2 + z**2
     cosine = (square - size["a2"] ** 2 - outer**2) / (2.0 * size["a2"] * outer)
     if abs(cosine) > 1.0:
@@ -150,10 +150,34 @@ def branch_posture(
     )
     upper = np.pi / 2 - lift
     q = np.array(
-        [np.arctan2(y, x) - yaw + np.pi * back, upper, lag - lift - fold - upper, roll, bend, twist]
+        [
+            np.arctan2(y, x) - np.arctan2(aside, radius) - yaw,
+            upper,
+            lag - lift - fold - upper,
+            roll,
+            bend,
+            twist,
+        ]
     )
     q[:3] = (q[:3] + np.pi) % (2.0 * np.pi) - np.pi
     return q
+
+
+def _outer_link(arm: PlacedArm, wrist: Sequence[float]) -> tuple[float, float, float]:
+    """Forearm and wrist as one link: its length in the plane of the upper arm [m], its angle to
+    the forearm [rad], and how far the flange is beside the plane [m]."""
+    size, (roll, bend, _) = lengths(), wrist
+    tool = float(np.linalg.norm(arm.arm.chain.translation[-1]))
+    along = size["d4"] + tool * np.cos(bend)
+    across = size["a3"] - tool * np.sin(bend) * np.cos(roll)
+    aside = tool * np.sin(bend) * np.sin(roll)
+    return float(np.hypot(along, across)), float(np.arctan2(across, along)), float(aside)
+
+
+def wrist_reach(arm: PlacedArm, wrist: Sequence[float]) -> float:
+    """Largest distance of the flange from the shoulder with given wrist angles [m]."""
+    outer, _, aside = _outer_link(arm, wrist)
+    return float(np.hypot(lengths()["a2"] + outer, aside))
 
 
 def pulled_back(point: np.ndarray, base: np.ndarray, radius: float) -> np.ndarray:

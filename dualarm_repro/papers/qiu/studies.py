@@ -16,68 +16,51 @@ from ...ledger import REGISTRY, Study
 from ...planning.bidirectional_compiled import plan_bidirectional_compiled
 from ...planning.contact_check import contact_check
 from ...planning.failure import classify
-from ...planning.hull_obstacle import JointCircles
 from ...planning.obstacles import Obstacles, obstacles_of
 from ...planning.rrt_connect import plan_rrt_connect
 from ...planning.search_plan import SearchPlan
-from ...planning.splice import smoothed
 from ...planning.time_map import hull_tracks, replay, time_map
-from ...scene import PlacedArm, Scene, Sphere, distances
+from ...scene import PlacedArm, Scene, distances
 from ...tracking import memo
 from .campaign import campaign
 from .goals import draw_goals
+from .printed_points import meeting
+from .random_tasks import MARGIN, random_task
 from .readings import (
-    CONTROL_POINTS,
-    HULL_FRAMES,
+    HULL,
+    IMPROVED,
     IMPROVED_VARIANT,
+    SPLICE,
     VARIANTS,
     Variant,
+    circles,
     master_arm,
     master_posture,
     settings,
+    smooth,
 )
 from .scenario import (
-    BASES,
-    MEETING,
     SEED,
     START,
     arm_in_use,
     placed,
     repelling,
-    shoulder,
     truth_scene,
 )
 
-#: Settings of every search of the studies, unless a cell says otherwise.
-FROZEN: dict[str, Any] = {
-    "master_goal": "pulled_back",
-    "goal_radius": 0.63,
-    "goal_branch": "front_shallow",
-    "goal_wrist": [0, 0, 0],
-    "attraction_form": "norm",
-    "repulsion_sources": "nearest",
-    "control_points": "elbow_wrist_flange",
-    "gain_ratio": 1.0,
-    "step_rule": "unit_vector",
-    "joint_tolerance": 0.05,
-    "stuck_rule": 60,
-    "search_cap": 300,
-    "gain_rule": "power",
-    "kappa": 0.8,
-    "delta_rho": 0.05,
-    "flip_rule": "negative",
-    "adaptive_step": "saturating",
-    "step_floor": 0.2,
-    "weights": [1, 2, 3],
-    "update_order": "before",
-    "goal_set": 0.08,
-}
+#: Choices of the studies that may differ from those of the ledger: the gains, and the law of the
+#: step of the variants with ``A``.
+CHOSEN: dict[str, Any] = {"gain_ratio": 1.0, "adaptive_step": "saturating"}
 RATIOS = (1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 1.0)
 SCENE_RATIOS = PAIR_RATIOS = (1e-4, 1e-2, 1.0)
-HULL_RADII = (0.09, 0.09, 0.075, 0.065, 0.05, 0.04)
-HULL_SAMPLES, SPREAD = 12, 31
+PAIR_POINTS = ("elbow_wrist_flange", "elbow_wrist", "four_with_link_radii")
 SCENE_COUNT, PAIR_COUNT = 300, 96
-_MARGIN = 0.03  # clearance of start and goal in the random tasks [m]
+
+
+def frozen(*names: str) -> dict[str, Any]:
+    """Settings of every search of the studies, and of ``names``, unless a cell says otherwise."""
+    read = (*IMPROVED, "goal_set", *names)
+    return {name: REGISTRY.assumption(f"qiu.{name}") for name in read} | CHOSEN
 
 
 def _ablation_cells() -> list[dict[str, Any]]:
@@ -92,7 +75,7 @@ def _ablation_cells() -> list[dict[str, Any]]:
 
 def _ablation(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Every combination of the three improvements on one set of goals; goals come from the cell."""
-    values = FROZEN | {
+    values = frozen() | {
         "gain_ratio": cell["gain_ratio"],
         "goal_branch": cell["branch"],
         "control_points": cell["control_points"],
@@ -117,7 +100,7 @@ ABLATION = REGISTRY.keeps(
         cells=_ablation_cells,
         compute=_ablation,
         seed=SEED,
-        settings=FROZEN,
+        settings=CHOSEN,
     )
 )
 
@@ -137,7 +120,7 @@ FIT_RATIOS = tuple(float(f"{x:.2e}") for x in np.geomspace(1e-5, 1.0, 41))
 
 def _fit(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """The ratio that brings the ends of the halves nearest to print, of all tried."""
-    values = FROZEN | {
+    values = frozen() | {
         "goal_branch": cell["branch"],
         "control_points": cell["control_points"],
         "goal_radius": cell["goal_radius"],
@@ -148,7 +131,7 @@ def _fit(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     for ratio in FIT_RATIOS:
         chosen = settings(values | {"gain_ratio": ratio}, variant)
         plan = plan_bidirectional_compiled(arm, START, master_posture(values), repelling(), chosen)
-        error = float(np.linalg.norm(np.array(plan.ends) - MEETING, axis=1).max())
+        error = float(np.linalg.norm(np.array(plan.ends) - meeting(), axis=1).max())
         if plan.reached and error < best["error"]:
             check = contact_check(truth_scene([arm]), plan.path)
             best |= {
@@ -168,41 +151,13 @@ FIT = REGISTRY.keeps(
         cells=_fit_cells,
         compute=_fit,
         seed=SEED,
-        settings={**FROZEN, "ratios": list(FIT_RATIOS)},
+        settings={**CHOSEN, "ratios": list(FIT_RATIOS)},
     )
 )
 
 
 def _scene_cells() -> list[dict[str, Any]]:
     return [{"scene": k, "spheres": 2 + k % 3} for k in range(SCENE_COUNT)]
-
-
-def random_task(count: int, rng: np.random.Generator) -> tuple[Scene, np.ndarray, np.ndarray]:
-    """A scene with ``count`` spheres, a start and a goal (6,): both clear, the straight joint line
-    blocked.
-
-    Radii 0.06 to 0.14 m, centres 0.25 to 0.65 m from the shoulder and above the table; joints 4 and
-    6 within half a turn. Drawn until a task fits.
-    """
-    arm = placed("master")
-    limit = np.minimum(arm.arm.upper, np.pi), np.maximum(arm.arm.lower, -np.pi)
-    while True:
-        balls = {}
-        for k in range(count):
-            direction = rng.normal(size=3)
-            centre = shoulder(BASES["master"]) + rng.uniform(
-                0.25, 0.65
-            ) * direction / np.linalg.norm(direction)
-            balls[f"sphere_{k}"] = Sphere(
-                [*centre[:2], max(centre[2], 0.15)], rng.uniform(0.06, 0.14)
-            )
-        turning = [("master/capsule_1_joint_1", "floor")]
-        scene = Scene([arm], balls, floor=0.0, exempt=turning)
-        for _ in range(40):
-            ends = rng.uniform(limit[1], limit[0], (2, 6))
-            if (distances(scene, ends).min(axis=1) > _MARGIN).all():
-                if contact_check(scene, ends).smallest < 0.0:
-                    return scene, ends[0], ends[1]
 
 
 def _scene(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
@@ -212,7 +167,7 @@ def _scene(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     row: dict[str, Any] = {}
     for ratio in SCENE_RATIOS:
         for variant in VARIANTS:
-            chosen = settings(FROZEN | {"gain_ratio": ratio}, variant)
+            chosen = settings(frozen() | {"gain_ratio": ratio}, variant)
             plan = plan_bidirectional_compiled(arm, start, goal, obstacles, chosen)
             key = f"{variant.name}_{ratio:g}"
             row[f"{key}_planner"] = plan.reached
@@ -251,7 +206,7 @@ SCENES = REGISTRY.keeps(
         cells=_scene_cells,
         compute=_scene,
         seed=SEED + 10,
-        settings={**FROZEN, "ratios": list(SCENE_RATIOS), "margin_m": _MARGIN},
+        settings={**CHOSEN, "ratios": list(SCENE_RATIOS), "margin_m": MARGIN},
     )
 )
 
@@ -274,7 +229,7 @@ def random_pair(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     rest = np.zeros(12)
     while True:
         goal = rng.uniform(np.tile(low, 2), np.tile(high, 2))
-        clear = distances(scene, goal).min() > _MARGIN
+        clear = distances(scene, goal).min() > MARGIN
         if clear and contact_check(scene, np.array([rest, goal])).smallest < 0.0:
             return goal[:6], goal[6:]
 
@@ -286,13 +241,14 @@ def _pair(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     goals = random_pair(rng)
     scene = _pair_scene()
     arms = {arm.name: arm for arm in scene.arms}
+    values = frozen(*SPLICE, *HULL, "schedule_steps")
     row: dict[str, Any] = {}
-    for points in CONTROL_POINTS:
+    for points in PAIR_POINTS:
         for ratio in PAIR_RATIOS:
             chosen = settings(
-                FROZEN | {"control_points": points, "gain_ratio": ratio}, IMPROVED_VARIANT
+                values | {"control_points": points, "gain_ratio": ratio}, IMPROVED_VARIANT
             )
-            planner, free, arms_clear = _planned_pair(arms, goals, chosen, scene)
+            planner, free, arms_clear = _planned_pair(arms, goals, chosen, scene, values)
             key = f"{points}_{ratio:g}"
             row[f"{key}_planner"], row[f"{key}_truth"] = planner, free
             row[f"{key}_arms_clearance"] = arms_clear
@@ -300,27 +256,30 @@ def _pair(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
 
 
 def _planned_pair(
-    arms: Mapping[str, PlacedArm], goals: tuple[np.ndarray, np.ndarray], chosen: Any, scene: Scene
+    arms: Mapping[str, PlacedArm],
+    goals: tuple[np.ndarray, np.ndarray],
+    chosen: Any,
+    scene: Scene,
+    values: Mapping[str, Any],
 ) -> tuple[bool, bool, float]:
     """Planner's and true success of both arms, and the smallest distance between them [m]."""
     master = plan_bidirectional_compiled(arms["master"], START, goals[0], repelling(), chosen)
     if not master.reached:
         return False, False, np.nan
-    path = _smooth(master)
-    circles = JointCircles(HULL_FRAMES, HULL_RADII, HULL_SAMPLES)
-    hulls = hull_tracks(arms["master"], path, circles, SPREAD)
+    path, spread = _smooth(values, master), round(values["schedule_steps"])
+    hulls = hull_tracks(arms["master"], path, circles(values), spread)
     slave = plan_bidirectional_compiled(
         arms["slave"], START, goals[1], repelling(floor=True), chosen, hulls
     )
     if not slave.reached:
         return False, False, np.nan
-    both = replay(path, _smooth(slave), time_map(slave, SPREAD), SPREAD)
+    both = replay(path, _smooth(values, slave), time_map(slave, spread), spread)
     check = contact_check(scene, np.hstack(both))
     return True, check.free, check.clearance["arms"]
 
 
-def _smooth(plan: SearchPlan) -> np.ndarray:
-    return smoothed(plan.path, 1.0, 1e4) if len(plan.path) >= 5 else plan.path
+def _smooth(values: Mapping[str, Any], plan: SearchPlan) -> np.ndarray:
+    return smooth(values, plan) if len(plan.path) >= 5 else plan.path
 
 
 PAIRS = REGISTRY.keeps(
@@ -330,7 +289,6 @@ PAIRS = REGISTRY.keeps(
         cells=_pair_cells,
         compute=_pair,
         seed=SEED + 20,
-        settings={**FROZEN, "hull_radii": list(HULL_RADII), "hull_samples": HULL_SAMPLES,
-                  "spread": SPREAD, "margin_m": _MARGIN},
+        settings={**CHOSEN, "control_points": list(PAIR_POINTS), "margin_m": MARGIN},
     )
-)  # fmt: skip
+)

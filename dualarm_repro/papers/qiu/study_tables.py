@@ -8,8 +8,8 @@ import pandas as pd
 
 from ...view.success_curves import bar_figure
 from .campaign import rate
-from .readings import CONTROL_POINTS, VARIANTS
-from .studies import PAIR_RATIOS, PAIRS, SCENE_RATIOS, SCENES
+from .readings import VARIANTS
+from .studies import PAIR_POINTS, PAIR_RATIOS, PAIRS, SCENE_RATIOS, SCENES
 
 _NAMES = [variant.name for variant in VARIANTS]
 _YARDSTICK = "rrt_connect"
@@ -43,7 +43,7 @@ def pairs_table() -> pd.DataFrame:
     table = PAIRS.load()
     rows = [
         {"control points": points, "eta_0/zeta": ratio} | _rates(table, f"{points}_{ratio:g}")
-        for points in CONTROL_POINTS
+        for points in PAIR_POINTS
         for ratio in PAIR_RATIOS
     ]
     return pd.DataFrame([*rows, {"control points": "RRT-Connect"} | _rates(table, _YARDSTICK)])

@@ -17,17 +17,21 @@ from ...view.search_curves import coordinate_figure, joint_figure, splice_figure
 from ...view.style import GREEN, MASTER, ORANGE, PURPLE
 from ...view.tip_paths import TipPanel, tip_path_figure
 from ..wording import point
+from .printed_points import meeting as printed_meeting
 from .readings import (
     IMPROVED,
     improved_plan,
     reconstructed,
     smooth,
 )
-from .scenario import CENTRES, MEETING, START, spheres, truth_scene
+from .scenario import CENTRES, START, spheres, truth_scene
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 _POSTURES = 6
-_NEAR = {"tolerance": 0.01, "reason": "two runs that agree to one centimetre"}
+_NEAR = {
+    "tolerance": 0.016,
+    "reason": "half the way of the flange of the straight arm in one printed step",
+}
 
 
 def _readings(assumed: Assumed) -> dict[str, SearchPlan]:
@@ -46,7 +50,7 @@ def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
 
 def _summary(plan: SearchPlan) -> dict[str, Any]:
     check = truth(plan)
-    pairs = zip(plan.ends, MEETING, strict=True)
+    pairs = zip(plan.ends, printed_meeting(), strict=True)
     away = [float(np.linalg.norm(end - printed)) for end, printed in pairs]
     return {
         "reason": str(plan.reason),
@@ -65,8 +69,8 @@ def _summary(plan: SearchPlan) -> dict[str, Any]:
     rules=[
         Rounds(key="forward", to="forward", label="searches of the forward half"),
         Rounds(key="backward", to="backward", label="searches of the backward half"),
+        Is("joined", "the two halves meet", value=True),
     ],
-    samples=32,
 )
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
@@ -76,12 +80,15 @@ def counts(assumed: Assumed) -> Result:
         obtained={
             "forward": face["searches"],
             "backward": face["searches"],
+            "joined": face["reason"] == "reached",
             "face_value": face,
             "reconstruction": other,
         },
         caption=(
             f"The halves need {face['searches']} searches each with the printed gains and "
-            f"{other['searches']} in the reconstruction; 31 are printed. At face value the joined "
+            f"{other['searches']} in the reconstruction; "
+            f"{REGISTRY.printed('qiu.claim_bi_counts')['forward']} are printed. At face value the "
+            "joined "
             "path " + ("is free of contact." if face["free"] else _worst(face))
         ),
     )
@@ -97,25 +104,27 @@ def _worst(summary: dict[str, Any]) -> str:
     rules=[
         Rounds(key="forward", to="forward", label="end of the forward half [m]", **_NEAR),
         Rounds(key="backward", to="backward", label="end of the backward half [m]", **_NEAR),
+        Is("joined", "the two halves meet", value=True),
     ],
-    samples=32,
 )
 def meeting(assumed: Assumed) -> Result:
     """Where the halves end, against print."""
     plans = _readings(assumed)
     face, other = (_summary(plan) for plan in plans.values())
-    printed_gap = float(np.linalg.norm(MEETING[0] - MEETING[1]))
+    printed_gap = float(np.linalg.norm(printed_meeting()[0] - printed_meeting()[1]))
     return Result(
         obtained={
             "forward": face["ends"][0],
             "backward": face["ends"][1],
+            "joined": face["reason"] == "reached",
             "gap_tip": face["gap_tip"],
             "printed_gap_tip": printed_gap,
             "distance_to_print": face["distance_to_print"],
             "reconstruction": other,
         },
         caption=(
-            f"At face value the halves meet at ({point(np.array(face['ends'][0]), 3)}) m, "
+            f"At face value the halves end ({face['reason']}) at "
+            f"({point(np.array(face['ends'][0]), 3)}) m, "
             f"{1e3 * max(face['distance_to_print']):.0f} mm from print; in the reconstruction at "
             f"({point(np.array(other['ends'][0]), 3)}) m, "
             f"{1e3 * max(other['distance_to_print']):.0f} mm "
@@ -129,10 +138,9 @@ def meeting(assumed: Assumed) -> Result:
 @checks(
     "qiu.fig12",
     rules=[
-        Is(key="joined", value=True, label="the two halves meet"),
+        Bounded("apart", "joint distance of the halves beyond the tolerance [rad]", high=0.0),
         NoOriginal(key="path", label="the path"),
     ],
-    samples=32,
 )
 def both_halves(assumed: Assumed) -> Result:
     """Flange paths of both halves among the spheres."""
@@ -142,25 +150,25 @@ def both_halves(assumed: Assumed) -> Result:
             name,
             {"forward": plan.half_tcp[0], "backward": plan.half_tcp[1]},
             [(plan.problem.placed, q) for q in plan.path[:: max(1, len(plan.path) // _POSTURES)]],
-            {"printed ends": MEETING},
+            {"printed ends": printed_meeting()},
         )
         for name, plan in plans.items()
     ]
     face = plans["face value"]
     return Result(
         obtained={
-            "joined": face.reached,
+            "apart": face.gap - assumed["joint_tolerance"],
             "reconstruction_joined": plans["reconstruction"].reached,
             "clearance": truth(face).clearance,
             "clearance_reconstruction": truth(plans["reconstruction"]).clearance,
         },
         table=face.to_frame(),
         caption=(
-            f"The halves meet after {face.searches} searches at face value, at z = "
+            f"The halves end ({face.reason}) after {face.searches} searches at face value, at z = "
             f"{face.ends[0][2]:.3f} m, and after {plans['reconstruction'].searches} in the "
             f"reconstruction, at z = {plans['reconstruction'].ends[0][2]:.3f} m; the printed ends "
             "of the "
-            f"halves are at z = {MEETING[0, 2]:.3f} and {MEETING[1, 2]:.3f} m."
+            f"halves are at z = {printed_meeting()[0, 2]:.3f} and {printed_meeting()[1, 2]:.3f} m."
         ),
         alt="Two panels with two spheres, postures of the arm and the two halves of its flange "
         "path that "
@@ -191,59 +199,67 @@ def _scene(plan: SearchPlan) -> Scene3D:
 @checks(
     "qiu.fig07",
     rules=[
-        Bounded(
-            key="roughness_ratio", high=1.0, label="curvature after the spline over that before"
-        ),
-        Bounded(key="end_shift", high=1e-5, label="shift of the ends of the path [rad]"),
+        Bounded("least_range", "range of the joint shown that moves least [rad]", low="visible"),
+        Bounded("junction_ratio", "bend at the junction, smoothed over joined", high="smoother"),
+        Bounded("end_shift", "shift of the ends of the path [rad]", high="held"),
         NoOriginal(key="curves", label="the curves"),
     ],
-    samples=32,
 )
 def splice(assumed: Assumed) -> Result:
     """Joints 4 and 5 around the junction, raw and smoothed, with clearance and limits checked
     again.
     """
-    plans = _readings(assumed)
-    face, other = plans.values()
+    face = improved_plan(assumed)
+    shown = [int(text) for text in REGISTRY.printed("qiu.fig07")["joints"]]
     path = smooth(assumed, face)
     before, after = truth(face), truth(face, path)
     table = pd.DataFrame(
         {f"q{j}_{kind}_deg": np.rad2deg(rows[:, j - 1])
-         for j in (4, 5) for kind, rows in (("joined", face.path), ("smoothed", path))}
+         for j in shown for kind, rows in (("joined", face.path), ("smoothed", path))}
     )  # fmt: skip
+    ranges = {j: float(np.ptp(path[:, j - 1])) for j in shown}
+    bends = [_bend(rows, face.searches) for rows in (path, face.path)]
+    ratio = bends[0] / bends[1] if bends[1] > 0.0 else 1.0
+    change = after.smallest - before.smallest
     return Result(
         obtained={
-            "roughness_ratio": roughness(path) / roughness(face.path),
+            "least_range": min(ranges.values()),
+            "junction_ratio": ratio,
             "end_shift": float(np.abs(path[[0, -1]] - face.path[[0, -1]]).max()),
-            "clearance_change": after.smallest - before.smallest,
+            "roughness_ratio": roughness(path) / roughness(face.path),
+            "clearance_change": change,
             "beyond_limits": after.beyond_limits,
-            "joint_4_moves": float(np.ptp(other.path[:, 3])),
         },
         table=table,
         caption=(
-            "The spline lowers the curvature of the path to "
-            f"{roughness(path) / roughness(face.path):.1%} "
-            f"of its value and changes the smallest clearance by "
-            f"{1e3 * (after.smallest - before.smallest):.1f} mm. With zero wrist angles at both "
-            "ends joint "
-            f"4 moves by {np.rad2deg(np.ptp(other.path[:, 3])):.2f} deg at most, whereas Fig. 7 of "
-            "the "
-            "document shows joint 4: its goal posture was another one."
+            "Of the joints that the figure of the document shows, "
+            + " and ".join(f"joint {j} moves by {np.rad2deg(r):.2f} deg" for j, r in ranges.items())
+            + f" with wrist angles of {assumed['goal_wrist']} rad at the goal. The spline brings "
+            f"the bend at the junction to {ratio:.1%} and the curvature of the path to "
+            f"{roughness(path) / roughness(face.path):.1%} of what it was, and changes the "
+            f"smallest clearance by {1e3 * change:.1f} mm."
         ),
         alt="Joints 4 and 5 around the junction of the halves, as joined and after smoothing.",
-        figure=lambda: splice_figure(face.path, path, face.searches + 0.5, (3, 4)),
+        figure=lambda: splice_figure(
+            face.path, path, face.searches + 0.5, tuple(j - 1 for j in shown)
+        ),
     )
+
+
+def _bend(path: np.ndarray, junction: int) -> float:
+    """Largest second difference at the two samples of the junction [rad]."""
+    second = np.linalg.norm(np.diff(path, 2, axis=0), axis=1)
+    return float(second[junction - 1 : junction + 1].max())
 
 
 @checks(
     "qiu.fig13",
     rules=[
         Bounded(
-            key="largest_step", high=0.1, label="largest step of a joint on the smoothed path [rad]"
+            "largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"
         ),
         NoOriginal(key="curves", label="the curves"),
     ],
-    samples=32,
 )
 def joint_angles(assumed: Assumed) -> Result:
     """All joint angles of the joined and smoothed path."""
@@ -260,9 +276,10 @@ def joint_angles(assumed: Assumed) -> Result:
         },
         table=table,
         caption=(
-            "Joint angles along the smoothed path in both readings, the junction dotted. Only "
-            "joints 1 to "
-            "3 have far to go; the printed curves are lost."
+            "Joint angles along the smoothed path in both readings, the junction dotted. At face "
+            "value the joints move by "
+            + ", ".join(f"{x:.0f}" for x in np.rad2deg(np.ptp(paths["face value"], axis=0)))
+            + " deg; the printed curves are lost."
         ),
         alt="Six panels of joint angles over the samples of the path, for two readings.",
         figure=lambda: joint_figure(paths, [plan.searches + 0.5 for plan in plans.values()]),
@@ -272,11 +289,11 @@ def joint_angles(assumed: Assumed) -> Result:
 @checks(
     "qiu.fig14",
     rules=[
-        Bounded(key="start_error", high=1e-3, label="distance of the first point to the start [m]"),
-        Bounded(key="goal_error", high=1e-3, label="distance of the last point to the goal [m]"),
+        Bounded("start_error", "distance of the first point to the start [m]", high="held"),
+        Bounded("goal_error", "distance of the last point to the goal [m]", high="held"),
+        Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
         NoOriginal(key="curves", label="the curves"),
     ],
-    samples=32,
 )
 def tip_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the flange on the joined and smoothed path."""
@@ -289,23 +306,28 @@ def tip_coordinates(assumed: Assumed) -> Result:
         obtained={
             "start_error": float(ends[0]),
             "goal_error": float(ends[1]),
+            "largest_step": _largest_step(tips["face value"]),
             "lowest": {name: float(tip[:, 2].min()) for name, tip in tips.items()},
         },
         table=table,
         caption=(
             "Coordinates of the flange on the smoothed path; its lowest point is at z = "
             f"{tips['face value'][:, 2].min():.3f} m at face value and "
-            f"{tips['reconstruction'][:, 2].min():.3f} m in the reconstruction. The printed ends "
-            "of the "
-            "halves, dashed and dotted, are higher. The printed curves are lost."
+            f"{tips['reconstruction'][:, 2].min():.3f} m in the reconstruction; the printed ends "
+            f"of the halves, dashed and dotted, are at z = {printed_meeting()[0, 2]:.3f} and "
+            f"{printed_meeting()[1, 2]:.3f} m. The printed curves are lost."
         ),
         alt="Three panels with x, y and z of the flange over the path for two readings.",
         figure=lambda: coordinate_figure(
             tips,
-            {"printed, forward": MEETING[0], "printed, backward": MEETING[1]},
+            {"printed, forward": printed_meeting()[0], "printed, backward": printed_meeting()[1]},
             "sample of the path",
         ),
     )
+
+
+def _largest_step(rows: np.ndarray) -> float:
+    return float(np.linalg.norm(np.diff(rows, axis=0), axis=1).max())
 
 
 def _tip(plan: SearchPlan, path: np.ndarray) -> np.ndarray:

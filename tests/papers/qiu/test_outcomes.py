@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 
 from dualarm_repro.ledger import REGISTRY
-from dualarm_repro.papers.qiu import studies
+from dualarm_repro.papers.qiu import improvements, studies
 from dualarm_repro.papers.qiu.campaign import campaign, rate
 from dualarm_repro.papers.qiu.execution import both_arms, dual_scene, executed
 from dualarm_repro.papers.qiu.goals import draw_goals
 from dualarm_repro.papers.qiu.hull_model import protrusions
+from dualarm_repro.papers.qiu.random_tasks import random_task
 from dualarm_repro.papers.qiu.readings import (
     IMPROVED_VARIANT,
     SLAVE,
     TRADITIONAL_VARIANT,
     dual_plan,
+    link_radii,
     reconstructed,
     traditional_plan,
 )
@@ -26,8 +28,7 @@ from dualarm_repro.scene import JointPath
 
 @pytest.fixture(scope="module")
 def values():
-    REGISTRY.load()
-    return {key: entry.value for key, entry in REGISTRY.papers["qiu"].assumptions.items()}
+    return REGISTRY.nominal("qiu")
 
 
 def test_improved_is_at_least_as_good_as_traditional(values):
@@ -75,7 +76,8 @@ def test_replay_reproduces_the_reported_clearance(values):
 
 def test_thinner_links_leave_more_room(values):
     plan = dual_plan(reconstructed(values, SLAVE))
-    assert executed(plan, radius_scale=0.8).smallest > executed(plan).smallest
+    thin = link_radii(values | {"link_radius_scale": 0.8})
+    assert executed(plan, radii=thin).smallest > executed(plan).smallest
 
 
 def test_protrusion_is_zero_for_circles_as_thick_as_a_wall(values):
@@ -85,16 +87,19 @@ def test_protrusion_is_zero_for_circles_as_thick_as_a_wall(values):
     assert protrusions(arm, q, wide).max() < protrusions(arm, q, values).max()
 
 
-@pytest.mark.parametrize("name", ["ABLATION", "FIT", "SCENES", "PAIRS"])
-def test_stored_study_is_what_the_code_gives(name):
-    study = getattr(studies, name)
+@pytest.mark.parametrize(
+    "study",
+    [studies.ABLATION, studies.FIT, studies.SCENES, studies.PAIRS, improvements.IMPROVEMENTS],
+    ids=lambda study: study.name,
+)
+def test_stored_study_is_what_the_code_gives(study):
     assert len(study.load()) == len(study.cells())
     assert study.spot_check(1, seed=11) == []
 
 
 def test_random_tasks_are_blocked_and_their_ends_are_clear():
     rng = np.random.default_rng(4)
-    scene, start, goal = studies.random_task(3, rng)
+    scene, start, goal = random_task(3, rng)
     assert contact_check(scene, np.array([start, goal])).smallest < 0.0
     for q in (start, goal):
         assert contact_check(scene, np.array([q, q])).free

@@ -1,0 +1,71 @@
+"""Stored study of `qiu`: what the variable gain and the adaptive step do on random tasks.
+
+Chatter of the one-way search with constant and with variable gain, and searches from both ends with
+every law of the step. In each cell, what is open about the gain and the step is drawn anew from its
+plausible values, so that the cells sample the declared population.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...ledger import REGISTRY, Study
+from ...planning.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.obstacles import obstacles_of
+from .oscillation import chatter
+from .random_tasks import random_task
+from .readings import IMPROVED, IMPROVED_VARIANT, Variant, settings
+from .scenario import SEED
+
+RATIOS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0)
+MEASURES = ("sign_changes", "second_difference", "peak_to_peak")
+STEP_RULES = ("constant", "saturating", "plain_distance", "relative")
+COUNT = 240
+#: What a cell draws.
+DRAWN = ("gain_rule", "kappa", "delta_rho", "flip_rule", "step_floor", "weights", "control_points")
+
+
+def nearest(ratio: float, stored: tuple[float, ...] = RATIOS) -> float:
+    """The stored ratio of gains nearest to another one, by their factor."""
+    return min(stored, key=lambda known: abs(np.log(known / ratio)))
+
+
+def _cells() -> list[dict[str, Any]]:
+    return [{"task": k, "spheres": 2 + k % 3, "gain_ratio": RATIOS[k % 5]} for k in range(COUNT)]
+
+
+def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    scene, start, goal = random_task(cell["spheres"], rng)
+    obstacles = obstacles_of(scene, leave_out=("floor",))
+    fields = ("value", "range", "scale", "choices")
+    drawn = {key: REGISTRY.declared(f"qiu.{key}", *fields).at(rng.random()) for key in DRAWN}
+    values = {name: REGISTRY.assumption(f"qiu.{name}") for name in IMPROVED}
+    values |= drawn | {"gain_ratio": cell["gain_ratio"]}
+
+    def run(variant: Variant, **changed: Any) -> Any:
+        chosen = settings(values | changed, variant)
+        return plan_bidirectional_compiled(scene.arms[0], start, goal, obstacles, chosen)
+
+    row: dict[str, Any] = {"gain_rule": drawn["gain_rule"], "kappa": drawn["kappa"]}
+    for name, variable in (("constant", False), ("variable", True)):
+        plan = run(Variant(variable, False, False))
+        row |= {f"{m}_{name}": chatter(plan.tcp[:, 2], m) for m in MEASURES}
+    for rule in STEP_RULES:
+        plan = run(IMPROVED_VARIANT, adaptive_step=rule)
+        row |= {f"searches_{rule}": plan.searches, f"reached_{rule}": plan.reached}
+    return row
+
+
+IMPROVEMENTS = REGISTRY.keeps(
+    Study(
+        name="qiu_improvements",
+        title="Chatter with constant and variable gain, searches with every law of the step",
+        cells=_cells,
+        compute=_cell,
+        seed=SEED + 30,
+        settings={"ratios": list(RATIOS), "drawn": list(DRAWN)},
+    )
+)
