@@ -153,16 +153,11 @@ def _plain(text: str, known: Mapping[str, Any]) -> sp.Expr:
     text = re.sub(r"_\{(\w+)\}", r"_\1", text)
     text = re.sub(r"(?<=\w)\((i|j|k)\)", r"_\1", text)
     text = re.sub(r"(\w+|\([^()]*\))\^T(\((?:[^()]*)\))?", r"transpose(\1)", text)
-<<<<<<< HEAD
     functions = "|".join(known)
-    text = re.sub(rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)", r"\1", text)
-=======
-    functions = "|".join(_KNOWN)
     arguments = rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)"
     while (shorter := re.sub(arguments, r"\1", text)) != text:
         text = shorter
     text = re.sub(r"\bgrad (\w+)", r"grad(\1)", text)
->>>>>>> qiu
     text = re.sub(r"(?<=[\w)]) (?=[A-Za-z(])", "*", text)
     text = text.replace("^", "**")
     names = set(re.findall(r"[A-Za-z_]\w*", text)) - known.keys()

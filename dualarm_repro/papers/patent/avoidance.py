@@ -14,7 +14,7 @@ from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
 from ...control.settings import Settings
 from ...control.simulate import pseudo_inverse
-from ...ledger import REGISTRY, Assumed, Bounded, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result
 from ...tracking import memo
 from ...view.control_figures import damper_figure
 from .constants import COARSE_STEP, CONTROL_STEP
@@ -74,7 +74,7 @@ def respects_limits(assumed: Assumed) -> Result:
     "patent.claim_two_ranges",
     samples=32,
     rules=[
-        Bounded(
+        Residual(
             key="outside",
             high=1e-9,
             label="beyond d1 the joint velocity is that without avoidance, to [rad/s]",

@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.penalty import PENALTIES
 from ...control.problem import Problem
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
 from ...ledger.formula import Formula, parse
 from .constants import SEED
 from .penalised import (
@@ -33,7 +33,7 @@ _STATES = 5  # random states about the rest point, for each form of the penalty
 @checks(
     "patent.eq_lagrangian",
     rules=[
-        Bounded(
+        Residual(
             key="gradient",
             high=1e-5,
             label="the code's error is the derivative of the Lagrangian, share of the largest",
@@ -61,7 +61,7 @@ def lagrange_function(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_kkt",
     rules=[
-        Bounded(
+        Residual(
             key="apart",
             high=1e-6,
             label="where both derivatives vanish, from the minimiser found without them [rad/s]",
@@ -90,12 +90,12 @@ def optimality_conditions(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_matrix",
     rules=[
-        Bounded(
+        Residual(
             key="derivatives",
             high=1e-5,
             label="left side less right side is both derivatives of the Lagrangian, share",
         ),
-        Bounded(key="at_rest", high=1e-6, label="where the network rests both sides agree, to"),
+        Residual(key="at_rest", high=1e-6, label="where the network rests both sides agree, to"),
     ],
 )
 def matrix_form(assumed: Assumed) -> Result:
@@ -125,8 +125,8 @@ def matrix_form(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_error",
     rules=[
-        Bounded(key="compiled", high=1e-9, label="the code's error differs from the printed one"),
-        Bounded(key="at_minimiser", high=1e-6, label="and at the minimiser it is"),
+        Residual(key="compiled", high=1e-9, label="the code's error differs from the printed one"),
+        Residual(key="at_minimiser", high=1e-6, label="and at the minimiser it is"),
     ],
 )
 def error_function(assumed: Assumed) -> Result:
@@ -158,7 +158,7 @@ def error_function(assumed: Assumed) -> Result:
     "patent.eq_matrix_defs",
     samples=8,
     rules=[
-        Bounded(
+        Residual(
             key="derivative",
             high=1e-5,
             label="the state matrix is the derivative of the error by y",

@@ -13,7 +13,7 @@ from ...control.problem import Problem
 from ...control.settings import Settings
 from ...control.simulate import pseudo_inverse
 from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
 from ...ledger.formula import Formula, parse
 from .constants import COARSE_STEP, SEED
 from .scenario import CROSSING, Frozen, frozen, run
@@ -26,12 +26,12 @@ _DIFFERENCE = 1e-6  # [rad] step of central differences
 @checks(
     "patent.eq_forward",
     rules=[
-        Bounded(key="apart", high=1e-12, label="both printed sides agree, to [m]"),
+        Residual(key="apart", high=1e-12, label="both printed sides agree, to [m]"),
         Bounded(
             key="other_solution", low="other", label="another solution for the same r is this far "
             "[rad]"
         ),
-        Bounded(key="same_tips", high=1e-6, label="and has the same r, to [m]"),
+        Residual(key="same_tips", high=1e-6, label="and has the same r, to [m]"),
     ],
 )  # fmt: skip
 def forward_map(assumed: Assumed) -> Result:
@@ -61,7 +61,7 @@ def forward_map(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_velocity",
     rules=[
-        Bounded(key="difference", high=1e-6, label="J theta' is the derivative of f, to [m/rad]"),
+        Residual(key="difference", high=1e-6, label="J theta' is the derivative of f, to [m/rad]"),
         Bounded(key="coupling", high=0.0, label="entries that couple one arm to the other's tip"),
         NoOriginal(key="formula", label="the equation of velocities"),
     ],
@@ -100,7 +100,7 @@ def velocity_map(assumed: Assumed) -> Result:
         Bounded(
             key="excess", high=1e-9, label="no joint velocity with the same tip velocity is smaller"
         ),
-        Bounded(key="to_pseudo_inverse", high=1e-9, label="distance to J^+ dr/dt [rad/s]"),
+        Residual(key="to_pseudo_inverse", high=1e-9, label="distance to J^+ dr/dt [rad/s]"),
         NoOriginal(key="formula", label="the objective"),
     ],
 )

@@ -12,7 +12,7 @@ from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.penalty import PENALTIES, penalty
 from ...control.problem import Problem
 from ...control.solvers import solve
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from ...view.control_figures import penalty_figure
 from .penalised import code_error, penalties, rest_point, sample_problem, stacked
 from .scenario import network_of
@@ -26,8 +26,8 @@ STIFFER = (1.0, 10.0, 100.0)
 @checks(
     "patent.eq_penalty",
     rules=[
-        Bounded(key="first_derivative", high=1e-6, label="P' is the derivative of P, relative to"),
-        Bounded(
+        Residual(key="first_derivative", high=1e-6, label="P' is the derivative of P, relative to"),
+        Residual(
             key="second_derivative", high=1e-5, label="P'' is the derivative of P', relative to"
         ),
         Bounded(key="slope", low=0.0, label="P grows with the violation: smallest P'"),
@@ -122,7 +122,7 @@ def stacked_inequalities(assumed: Assumed) -> Result:
             low="nearer",
             label="a penalty stiffer by 10 is nearer to the exact minimiser by",
         ),
-        Bounded(key="equality", high=1e-8, label="the equality is kept exactly, to [m/s]"),
+        Residual(key="equality", high=1e-8, label="the equality is kept exactly, to [m/s]"),
         NoOriginal(key="formula", label="the penalised problem"),
     ],
 )

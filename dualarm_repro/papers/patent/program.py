@@ -13,7 +13,7 @@ from ...control.recorded import recorded_problems
 from ...control.settings import Settings
 from ...control.solvers import SOLVERS, solve
 from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from ...scene.clearance import distances
 from .constants import COARSE_STEP, SEED
 from .equations import STILL, random_configuration
@@ -81,10 +81,10 @@ def joint_limits(assumed: Assumed) -> Result:
     "patent.eq_avoid",
     samples=16,
     rules=[
-        Bounded(
+        Residual(
             key="gradient", high=1e-6, label="rows are derivatives of the distances, to [m/rad]"
         ),
-        Bounded(
+        Residual(
             key="faster",
             high=1e-6,
             label="motion within the rows closes a distance below d1 faster than beta, by [m/s]",
@@ -130,7 +130,9 @@ def avoidance_rows(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_qp",
     rules=[
-        Bounded(key="residual", high=1e-8, label="largest optimality residual of the exact method"),
+        Residual(
+            key="residual", high=1e-8, label="largest optimality residual of the exact method"
+        ),
         Is(
             key="disagree",
             value=0,

@@ -57,6 +57,12 @@ def too_close(system: ArmSystem, task: Task, settings: Settings) -> float | None
 
 
 #: Scenario to robot, judge, number of draws and title.
+#: What each search looks for, as the scenario file says it.
+WANTED: dict[Judge, str] = {
+    crossing: "a task on which naive motion collides deeply and avoidance completes.",
+    limits: "a task on which naive motion leaves the joint ranges and the arms come close.",
+    too_close: "a task that starts inside the inner range, without contact, and is completed.",
+}
 SEARCHES: dict[str, tuple[str, Judge, int, str]] = {
     "crossing": ("panda", crossing, 3000, "Two Pandas whose arms cross without avoidance"),
     "crossing_xarm7": ("xarm7", crossing, 3000, "Two xArm 7 whose arms cross without avoidance"),
@@ -97,7 +103,7 @@ def search(name: str) -> dict:
         "found": {
             "seed": [SEED, draw],
             "criteria": f"least peak acceleration of {len(scored)} admissible among {draws} draws; "
-            f"{' '.join(judge.__doc__.removeprefix('Score of ').split())}",
+            f"{WANTED[judge]}",
         },
     }
 

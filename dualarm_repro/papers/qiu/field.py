@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
 from ...ledger.formula import parse
 from ...ledger.printed import EXACT
 from ...planning.bidirectional import repulsive_torque, surroundings_at
@@ -47,7 +47,7 @@ _LOST = "the formula"
 @checks(
     "qiu.fig04",
     rules=[
-        Bounded(key="balance", high=1e-6, label="sum of the forces against the slope, relative"),
+        Residual(key="balance", high=1e-6, label="sum of the forces against the slope, relative"),
         NoOriginal(key="drawing", label="the drawing"),
     ],
 )
@@ -127,7 +127,7 @@ def control_points(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq04",
     rules=[
-        Bounded(
+        Residual(
             key="difference", high=1e-5, label="resultant against finite differences, relative"
         ),
     ],
@@ -165,8 +165,8 @@ def resultant(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq05",
     rules=[
-        Bounded(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
-        Bounded(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
+        Residual(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
+        Residual(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
         NoOriginal(key="formula", label=_LOST),
     ],
 )
@@ -196,8 +196,8 @@ def attractive_potential(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq06",
     rules=[
-        Bounded(key="difference", high=1e-6, label="force against finite differences, relative"),
-        Bounded(key="beyond_bound", high=1e-12, label="largest force beyond its bound, relative"),
+        Residual(key="difference", high=1e-6, label="force against finite differences, relative"),
+        Residual(key="beyond_bound", high=1e-12, label="largest force beyond its bound, relative"),
         NoOriginal(key="formula", label=_LOST),
     ],
 )
@@ -228,7 +228,7 @@ def attractive_force(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq07",
     rules=[
-        Bounded(key="at_range", high=1e-12, label="value at the end of the range"),
+        Residual(key="at_range", high=1e-12, label="value at the end of the range"),
         Is(key="grows", value=True, label="it grows without bound towards the obstacle"),
         NoOriginal(key="formula", label=_LOST),
     ],
@@ -254,10 +254,10 @@ def repulsive_potential(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq08",
     rules=[
-        Bounded(
+        Residual(
             key="direction", high=1e-9, label="printed direction against the slope of the distance"
         ),
-        Bounded(key="slope", high=1e-5, label="force against finite differences of (7), relative"),
+        Residual(key="slope", high=1e-5, label="force against finite differences of (7), relative"),
         NoOriginal(key="factor", label="the factor in front of the gradient"),
     ],
 )
@@ -296,7 +296,7 @@ def repulsive_force(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq09",
     rules=[
-        Bounded(
+        Residual(
             key="difference", high=1e-5, label="joint forces against finite differences, relative"
         ),
         NoOriginal(key="formula", label=_LOST),

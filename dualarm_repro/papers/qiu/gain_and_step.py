@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from ...ledger.formula import parse
 from ...planning.adaptive_step import step_length
 from ...planning.bidirectional_settings import GainRule, StepRule
@@ -26,13 +26,13 @@ _FLIPS = 3
 @checks(
     "qiu.eq10",
     rules=[
-        Bounded(
+        Residual(
             "step_difference",
             "steps of a search with variable gain against the printed product [rad]",
             high=1e-9,
         ),
-        Bounded(
-            key="outside_band", high=1e-15, label="distance of lambda from one outside its band"
+        Residual(
+            key="outside_band", high=1e-12, label="distance of lambda from one outside its band"
         ),
         Bounded("at_flip", "lambda where the resultant has flipped", high="weaker"),
         NoOriginal(key="lambda", label="the formula of lambda"),

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Residual, Result
 from ...ledger.printed import read_number
 from ...planning.hull_obstacle import HullTrack, circles_on, hull_track, point_hull
 from ...scene import ConvexHull, PlacedArm
@@ -36,7 +36,7 @@ _QUERIES = 2000
 @checks(
     "qiu.fig09",
     rules=[
-        Bounded(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
+        Residual(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
         Bounded(
             "beyond_right_angle",
             "fifth printed angle from a right angle, beyond the printed digits [rad]",

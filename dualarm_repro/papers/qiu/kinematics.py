@@ -12,7 +12,7 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...arms.dh import joint_symbols
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result, Rounds
+from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result, Rounds
 from ...ledger.formula import parse
 from ...planning.control_points import end_effector as tip_of
 from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
@@ -30,7 +30,7 @@ _INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
 @checks(
     "qiu.fig01",
     rules=[
-        Bounded(
+        Residual(
             key="flange_error", high=1e-12, label="end of the drawn outline to the arm's flange [m]"
         ),
         NoOriginal(key="dimensions", label="the dimensions inside the drawing"),
@@ -84,7 +84,7 @@ def dimensions(assumed: Assumed) -> Result:
     "qiu.fig02",
     samples=32,
     rules=[
-        Bounded(
+        Residual(
             key="convention_difference",
             high=1e-12,
             label="both conventions put the flange alike to [m]",
@@ -119,7 +119,7 @@ def link_frames(assumed: Assumed) -> Result:
     "qiu.tab01",
     samples=32,
     rules=[
-        Bounded(
+        Residual(
             key="second_model",
             high=1e-12,
             label="largest difference of the two models' flanges [m]",
@@ -194,8 +194,8 @@ def link_transform(assumed: Assumed) -> Result:
     "qiu.eq02",
     samples=32,
     rules=[
-        Bounded(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
-        Bounded(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),
+        Residual(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
+        Residual(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),
         NoOriginal(key="formula", label="the product of transforms"),
     ],
 )
@@ -222,7 +222,7 @@ def end_effector(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq03",
     rules=[
-        Bounded(
+        Residual(
             key="miss",
             high=1e-12,
             label="base that the printed formula gives misses the printed slave base by [m]",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Residual, Result
 from ...planning.splice import roughness, smoothed, smoothed_directly
 from .improvements import IMPROVEMENTS, STEP_RULES, nearest
 from .printed_points import meeting, slave_meeting
@@ -25,7 +25,7 @@ _END_WEIGHTS = (1.0, 1e3, 1e6)
 @checks(
     "qiu.eq11",
     rules=[
-        Bounded(key="step_error", high=1e-12, label="length of a step minus alpha [rad]"),
+        Residual(key="step_error", high=1e-12, label="length of a step minus alpha [rad]"),
         Bounded(key="end", high=0.0, label="joint error at the end beyond the tolerance [rad]"),
         NoOriginal(key="formula", label="the formula"),
     ],
@@ -55,7 +55,7 @@ def nominal_values() -> dict[str, Any]:
 @checks(
     "qiu.eq13",
     rules=[
-        Bounded(
+        Residual(
             key="difference", high=1e-9, label="steps of the forward half against the formula [rad]"
         ),
         NoOriginal(key="formula", label="the formula"),
@@ -69,7 +69,7 @@ def forward_update(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq14",
     rules=[
-        Bounded(
+        Residual(
             key="difference",
             high=1e-9,
             label="steps of the backward half against the formula [rad]",
@@ -142,7 +142,7 @@ def meeting_test(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq16",
     rules=[
-        Bounded(key="difference", high=1e-8, label="spline against its normal equations [rad]"),
+        Residual(key="difference", high=1e-8, label="spline against its normal equations [rad]"),
         NoOriginal(key="formula", label="the formula"),
     ],
 )

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Bounded, Result
+from ...ledger import REGISTRY, Residual, Result
 from ...planning.potentials import Potential
 from .sample_problem import worst_gradient
 
 checks = partial(REGISTRY.checks, page="xue/potentials")
 
 VALUE = partial(
-    Bounded, key="value", high=1e-9, label="largest difference of the field run to print"
+    Residual, key="value", high=1e-9, label="largest difference of the field run to print"
 )
 GRADIENT = partial(
-    Bounded,
+    Residual,
     key="gradient",
     high=1e-6,
     label="relative error of its gradient by central differences",

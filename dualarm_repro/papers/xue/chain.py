@@ -10,7 +10,7 @@ import sympy as sp
 
 from ...arms import load_arm
 from ...errors import DataFileError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role, Rounds
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role, Rounds
 from ...ledger.formula import parse
 from ...tracking import memo
 from ..wording import point
@@ -139,7 +139,7 @@ def _register_link(k: int) -> None:
                 value=True,
                 label="equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm",
             ),
-            Bounded(
+            Residual(
                 key="pinocchio", high=1e-12, label="largest difference to Pinocchio's placement"
             ),
         ],
@@ -172,14 +172,14 @@ for _k in LINKS:
             value=True,
             label="product of the printed matrices is the arm's T(q)",
         ),
-        Bounded(
+        Residual(
             key="formula",
             high=1e-12,
             label="(8) as printed, with matrices (2)-(7) put in, to Pinocchio",
         ),
-        Bounded(key="pinocchio", high=1e-12, label="largest difference to Pinocchio"),
-        Bounded(key="kernel", high=1e-12, label="largest difference to the batch kernel"),
-        Bounded(key="orthonormal", high=1e-12, label="n, o, a are orthonormal to"),
+        Residual(key="pinocchio", high=1e-12, label="largest difference to Pinocchio"),
+        Residual(key="kernel", high=1e-12, label="largest difference to the batch kernel"),
+        Residual(key="orthonormal", high=1e-12, label="n, o, a are orthonormal to"),
     ],
 )
 def end_effector_pose(assumed: Assumed) -> Result:

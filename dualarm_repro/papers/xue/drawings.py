@@ -9,7 +9,7 @@ import pandas as pd
 import pinocchio as pin
 
 from ...arms import load_arm
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
 from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
@@ -25,7 +25,7 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
 @checks(
     "xue.fig01",
     rules=[
-        Bounded(
+        Residual(
             key="shared_difference",
             high=1e-12,
             label="a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
@@ -62,12 +62,12 @@ def dimensions(assumed: Assumed) -> Result:
 @checks(
     "xue.fig02",
     rules=[
-        Bounded(
+        Residual(
             key="axis_error",
             high=1e-12,
             label="each z axis is the axis its joint turns about, to",
         ),
-        Bounded(
+        Residual(
             key="frame_error", high=1e-12, label="each frame is the product of printed matrices, to"
         ),
         NoOriginal(key="drawing", label="the drawing of the frames"),
@@ -105,7 +105,7 @@ def link_frames(assumed: Assumed) -> Result:
     "xue.fig03",
     samples=32,
     rules=[
-        Bounded(
+        Residual(
             key="mirror_error",
             high=1e-12,
             label="the slave is the reflection of the master, to [m]",

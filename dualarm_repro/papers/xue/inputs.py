@@ -7,7 +7,18 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result, Role, Rounds
+from ...ledger import (
+    REGISTRY,
+    Adopts,
+    Assumed,
+    Bounded,
+    Is,
+    NoOriginal,
+    Residual,
+    Result,
+    Role,
+    Rounds,
+)
 from ...planning.control_points import end_effector
 from ...scene import JointPath, facing
 from ...view.scene3d import Scene3D
@@ -28,7 +39,7 @@ checks = partial(REGISTRY.checks, page="xue/scene")
     rules=[
         Rounds(key="start", to="start", label="Start in the figure, in the frame of the document"),
         Rounds(key="end", to="end", label="End in the figure, in the frame of the document"),
-        Bounded(key="off_centre", high=1e-12, label="virtual point to the middle of the bars [m]"),
+        Residual(key="off_centre", high=1e-12, label="virtual point to the middle of the bars [m]"),
         NoOriginal(key="window", label="size, place and direction of the window"),
     ],
 )

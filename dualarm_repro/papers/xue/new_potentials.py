@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...ledger import Assumed, Bounded, Is, Result, Role
+from ...ledger import Assumed, Is, Residual, Result, Role
 from ...planning.control_points import control_points, end_effector, ends_of
 from ...planning.problem import Problem
 from ...planning.virtual_point import initial
@@ -44,7 +44,7 @@ _UNIT = 2.0
             role=Role.CONTRADICTS,
             label="both printed terms scale alike with the unit of length",
         ),
-        Bounded(
+        Residual(
             key="value_at_weight_one",
             high=1e-9,
             role=Role.CONTRADICTS,
@@ -199,7 +199,7 @@ def total_potential(assumed: Assumed) -> Result:
     rules=[
         VALUE(),
         GRADIENT(),
-        Bounded(
+        Residual(
             key="rest_slope",
             high=1e-6,
             label="slope of both attractions, as printed, at (k_a X_g + k_av X_v)/(k_a + k_av)",

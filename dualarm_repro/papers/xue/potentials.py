@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...ledger import Assumed, Bounded, Is, Result, Role
+from ...ledger import Assumed, Bounded, Is, Residual, Result, Role
 from ...planning.control_points import end_effector
 from ...planning.problem import Problem
 from ...tracking import memo
@@ -152,10 +152,10 @@ def _close(left: np.ndarray, right: np.ndarray) -> bool:
 @checks(
     "xue.eq12",
     rules=[
-        Bounded(
+        Residual(
             key="sides", high=1e-6, label="the force as printed against -grad of (10), at most"
         ),
-        Bounded(key="force", high=1e-6, label="and against the joint forces of the field run"),
+        Residual(key="force", high=1e-6, label="and against the joint forces of the field run"),
         GRADIENT(),
     ],
 )

@@ -8,7 +8,7 @@ import numpy as np
 import sympy as sp
 
 from ...arms import load_arm
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result
+from ...ledger import REGISTRY, Adopts, Assumed, Is, Residual, Result
 from ..wording import point
 from .chosen import nominal
 from .layout import placed_master
@@ -37,7 +37,7 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
             value=True,
             label="frames 4, 5 and 6 less d_6 share their origin",
         ),
-        Bounded(
+        Residual(
             key="spread", high=1e-12, label="largest distance of the three axes' common point [m]"
         ),
     ],
@@ -65,7 +65,7 @@ def spherical_wrist(assumed: Assumed) -> Result:
     "xue.claim_mirror",
     rules=[
         Is(key="symbolic", value=True, label="negated alpha and theta give M T(q) M in symbols"),
-        Bounded(key="pinocchio", high=1e-12, label="largest difference of the two models"),
+        Residual(key="pinocchio", high=1e-12, label="largest difference of the two models"),
     ],
 )
 def mirror(assumed: Assumed) -> Result:
