@@ -178,9 +178,7 @@ def improved_succeeds(assumed: Assumed) -> Result:
             to="trapped",
             label="traditional runs that stand still and stay after small pushes",
         ),
-        Rounds(
-            key="missed.traditional", to="trapped", label="traditional runs that do not arrive"
-        ),
+        Rounds(key="missed.traditional", to="trapped", label="traditional runs that do not arrive"),
         Bounded(key="unproved", high=0, label="runs called trapped whose gradient does not vanish"),
     ],
     samples=32,
