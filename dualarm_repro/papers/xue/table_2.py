@@ -77,6 +77,11 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
             to="traditional.trapped",
             label="improved runs of 10 held in a trap, against the entry of the other row",
         ),
+        Rounds(
+            key="missed.traditional",
+            to="improved.trapped",
+            label="traditional runs of 10 that do not arrive, against the same",
+        ),
         Exceeds(
             key="text_less_table",
             label="share of random arrangements with the text's outcome less that with the table's",
@@ -173,6 +178,7 @@ def improved_succeeds(assumed: Assumed) -> Result:
             to="trapped",
             label="traditional runs that stand still and stay after small pushes",
         ),
+        Rounds(key="missed.traditional", to="trapped", label="traditional runs that do not arrive"),
         Bounded(key="unproved", high=0, label="runs called trapped whose gradient does not vanish"),
     ],
     samples=32,

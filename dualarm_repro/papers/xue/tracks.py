@@ -47,15 +47,23 @@ _MASTER_RULES = (
     Is(key="needed", value=True, label="without repulsion it would come within d_0 of a bar"),
 )
 _COLLIDING_RULES = (
-    Is(key="enters_bar", value=True, label="the undisturbed slave enters a bar"),
-    Is(key="meets_master", value=True, label="and meets the master at one instant"),
+    Bounded(key="flange_window", high=0, label="distance of the undisturbed slave to a bar [m]"),
+    Bounded(
+        key="beyond_meeting",
+        high=0,
+        label="its distance to the master at one instant, less that of a meeting [m]",
+    ),
 )
 _AVOIDING_RULES = (
     Is(key="reached", value=True, label="the slave arrives at End"),
     Bounded(
         key="flange_window", low=1e-6, label="smallest distance of its end effector to a bar [m]"
     ),
-    Is(key="meets_master", value=False, label="the end effectors meet before both rest"),
+    Bounded(
+        key="beyond_meeting",
+        low=1e-6,
+        label="distance of the end effectors until both rest, less that of a meeting [m]",
+    ),
 )
 
 
@@ -295,7 +303,8 @@ def _master_numbers(layout: Layout, method: Method, plan: Plan | None) -> dict[s
 def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> dict[str, Any]:
     """Distances to bars and master until both arms rest, or while the slave is moving."""
     if replay is None:
-        return {"reached": False, "flange_window": None, "enters_bar": False, "meets_master": None}
+        nothing = dict.fromkeys(("flange_window", "beyond_meeting"))
+        return {"reached": False, "enters_bar": False, "meets_master": False, **nothing}
     window = float(flange_to_window(replay.slave, replay.case.layout).min())
     apart = (flanges_apart_moving if moving else flanges_apart)(
         replay.slave, replay.master, replay.track
@@ -308,6 +317,7 @@ def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> 
         "flange_window": window,
         "enters_bar": window <= 0.0,
         "flanges_apart": float(apart.min()),
+        "beyond_meeting": float(apart.min() - meeting),
         "nearest_step": int(apart.argmin()),
         "meets_master": bool(apart.min() <= meeting),
     }
