@@ -3,7 +3,6 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 UV := .boot/bin/uv
-CODE := $(shell find dualarm_repro data requirements.lock -type f -not -name '*.pyc' 2>/dev/null)
 # One thread per process: results must not depend on how many cores a BLAS finds.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
@@ -14,27 +13,44 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env book test verify results bench serve lint lock wheel clean
+.PHONY: help env book test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
-	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
 
-book: $(VENV)/.installed _build/.code  ## execute every notebook and build _build/html/index.html
+book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.html
 	$(BIN)/python tools/prerun.py
 	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
+	$(BIN)/dualarm export --out _build/html/_static/ledger
 	$(BIN)/python tools/check_book.py
 
-test: $(VENV)/.installed _build/.code  ## run the whole test suite
+test: $(VENV)/.installed  ## run the whole test suite
 	$(BIN)/python tools/prerun.py --records
 	$(BIN)/python -m pytest
 
-verify: $(VENV)/.installed _build/.code  ## recompute every item from nothing and compare with data/results
+verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify
 
-results: $(VENV)/.installed _build/.code  ## recompute and rewrite the reference results in data/results
+verify-portable: $(VENV)/.installed  ## verify, then test, with the machine code of other processors
+	$(BIN)/python tools/verify_portable.py --tests
+
+trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
+	$(BIN)/python tools/trust_ledger.py
+
+results: $(VENV)/.installed  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update
+	$(BIN)/python tools/metadata.py
+
+metadata: $(VENV)/.installed  ## write CITATION.cff, codemeta, Zenodo, RO-Crate and repro.yaml again
+	$(BIN)/python tools/metadata.py
+
+claims: $(VENV)/.installed  ## let tools that are not ours check citations, archives and numbers
+	$(BIN)/dualarm export --out _build/ledger
+	$(BIN)/claims verify repro.yaml --policy publication
+	$(BIN)/claims verify _build/ledger/repro.yaml --policy publication
+	$(BIN)/python tools/check_archive.py . _build/ledger
 
 bench: $(VENV)/.bench  ## ratios against peers, measured in one run
 	$(BIN)/python benchmarks/run.py
@@ -46,7 +62,7 @@ lint: $(VENV)/.installed  ## static checks
 	$(BIN)/ruff check .
 
 lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
-	$(UV) pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
+	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
 	$(UV) pip compile pyproject.toml --extra bench -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-bench.lock
 
 wheel: $(VENV)/.installed  ## build a wheel that carries the data files
@@ -54,13 +70,6 @@ wheel: $(VENV)/.installed  ## build a wheel that carries the data files
 
 clean:  ## remove everything that was built, keep the environment
 	rm -rf _build dist
-
-# The notebook cache knows only the cells, and numba's only the file of the function itself: drop
-# both whenever library, data or lock change.
-_build/.code: $(CODE)
-	rm -rf _build/.jupyter_cache && mkdir -p _build
-	find dualarm_repro -name '*.nb[ic]' -delete
-	touch $@
 
 $(UV):
 	$(PYTHON) -m pip install -q --disable-pip-version-check --target .boot uv==0.13.9
@@ -70,7 +79,7 @@ $(VENV)/.installed: requirements.lock pyproject.toml | $(UV)
 	test -x $(BIN)/python || $(UV) venv -q --python "$$(command -v $(PYTHON))" $(VENV)
 	$(UV) pip sync -q --python $(BIN)/python --require-hashes requirements.lock \
 	  || { rm -rf $(VENV) && $(PYTHON) -m venv $(VENV) \
-	  && $(BIN)/python -m pip install -q --require-hashes -r requirements.lock; }
+	  && $(BIN)/python -m pip install -q --no-deps --require-hashes -r requirements.lock; }
 	$(UV) pip install -q --python $(BIN)/python --no-deps --no-build-isolation -e .
 	touch $@
 

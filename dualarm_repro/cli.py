@@ -2,35 +2,37 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
-from rich.table import Table
-from tqdm import tqdm
 from typer.exceptions import TyperException
 
 from .errors import DualArmError, LedgerError, UnknownNameError
-from .ledger import Registry
 from .ledger.schema import Kind
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from .ledger import Registry
 
 app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    help="Reproduced figures, tables, equations and claims of four documents on dual-arm robots.",
+    help="Reproduced figures, tables, equations and claims of documents on dual-arm robots.",
 )
 
 Ids = Annotated[list[str], typer.Argument(metavar="ID...", help="item ids, e.g. xue.fig05")]
 OneId = Annotated[str, typer.Argument(metavar="ID", help="item id, e.g. xue.tab01")]
+Jobs = Annotated[int, typer.Option(min=1, help="worker processes on this machine")]
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="a Dask scheduler whose workers compute")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="machine-readable output")]
-#: Draws of `sensitivity` for an item of which the book draws none.
-_DRAWS = 16
 #: Rows of a table that `run` prints.
 _ROWS = 12
 
@@ -44,7 +46,7 @@ class CitationFormat(StrEnum):
 
 @app.command("list")
 def list_items(
-    paper: Annotated[str | None, typer.Option(help="one document: xue, qiu, patent, pan")] = None,
+    paper: Annotated[str | None, typer.Option(help="one document, by its id")] = None,
     kind: Annotated[Kind | None, typer.Option(help="one kind of item")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -62,15 +64,19 @@ def list_items(
     if as_json:
         _print_json(records)
         return
+    from rich.table import Table
+
+    from .view.terminal import verdict_text
+
     table = Table("id", "kind", "verdict", "title", box=None)
     for made in records:
-        table.add_row(made["id"], made["kind"], made["verdict"], made["title"])
+        table.add_row(made["id"], made["kind"], verdict_text(made), made["title"])
     _console().print(table)
 
 
 @app.command()
 def show(item_id: OneId, as_json: AsJson = False) -> None:
-    """Show one item: printed, obtained, verdict, assumptions, errata, robustness."""
+    """Show one item: printed, obtained, verdict, witnesses, assumptions, errata, robustness."""
     made = _record(_registry(), item_id)
     if as_json:
         _print_json(made)
@@ -84,17 +90,16 @@ def run(
     out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
 ) -> None:
     """Compute items and write ID.json, ID.csv, ID.svg, ID.png and, where there is one, ID.html."""
-    from .ledger import evaluate
     from .ledger.export import export
-    from .ledger.record import compose
+    from .ledger.record import located, make
     from .view.card import card_figure
 
     registry = _registry()
     for item_id in ids:
         registry.item(item_id)
     for item_id in _progress(ids):
-        evaluation = evaluate(registry, item_id)
-        made = json.loads(_json(compose(registry, evaluation)))
+        entry, evaluation = make(registry, item_id)
+        made = located(entry["record"])
         files = export(evaluation, made, out, card_figure)
         _describe(made)
         if evaluation.result and (table := evaluation.result.table) is not None:
@@ -108,6 +113,8 @@ def run(
 def verify(
     ids: Annotated[list[str] | None, typer.Argument(metavar="[ID...]")] = None,
     update: Annotated[bool, typer.Option(help="rewrite the reference instead")] = False,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
     as_json: AsJson = False,
 ) -> None:
     """Recompute items from nothing and compare them with data/results; exit 1 on any drift."""
@@ -117,7 +124,14 @@ def verify(
     chosen = ids or list(registry.items)
     for item_id in chosen:
         registry.item(item_id)
-    report = reference.verify(registry, _progress(chosen), update=update)
+    report = reference.verify(
+        registry,
+        chosen,
+        update=update,
+        jobs=jobs,
+        progress=sys.stderr.isatty(),
+        scheduler=scheduler,
+    )
     if as_json:
         _print_json(report)
     else:
@@ -126,6 +140,7 @@ def verify(
         for entry in report["drifted"]:
             print(f"{entry['id']} drifted: {'; '.join(entry['differences'])}")
         print(f"{report['checked']} checked, {len(report['drifted'])} drifted")
+        print(f"{len(report['compared'])} values compared with a bound or tolerance (see --json)")
     if report["drifted"]:
         raise typer.Exit(1)
 
@@ -134,26 +149,26 @@ def verify(
 def sensitivity(
     item_id: OneId,
     samples: Annotated[
-        int | None,
-        typer.Option(help="draws of the assumptions; default those of the book, or 16"),
+        int | None, typer.Option(help="draw anew, so many; default the stored draws")
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Sample the assumptions of an item: how often its verdict holds, and what flips it."""
-    from rich.console import Console
-
-    from .ledger import robustness
-
+    """Sample the assumptions of an item: how often print is met, and what flips the verdict."""
     registry = _registry()
-    with Console(stderr=True).status(f"sampling the assumptions of {item_id}"):
-        found = robustness(registry, item_id, samples)
-        if found is None and samples is None:  # too slow for the book, not for who asks
-            found = robustness(registry, item_id, _DRAWS)
-    plain = found.as_json() if found else None
-    if as_json:
-        _print_json({"id": item_id, "robustness": plain})
+    registry.item(item_id)
+    if samples is None:
+        found = _record(registry, item_id)["robustness"]
     else:
-        print(f"{item_id}: {_robustness_line(plain)}")
+        from .ledger.settled import robustness_of_draws
+
+        with _console(stderr=True).status(f"sampling the assumptions of {item_id}"):
+            found = robustness_of_draws(registry, item_id, samples)
+    if as_json:
+        _print_json({"id": item_id, "robustness": found})
+    else:
+        from .view.terminal import robustness_line
+
+        print(f"{item_id}: {robustness_line(found)}")
 
 
 @app.command()
@@ -169,6 +184,8 @@ def methods(as_json: AsJson = False) -> None:
             ]
         )
         return
+    from rich.table import Table
+
     table = Table("method", "description", box=None)
     for name, entry in METHODS.items():
         table.add_row(name, entry.description)
@@ -207,21 +224,36 @@ def plan(
 
 @app.command()
 def study(
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME...]")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="worker processes")] = 1,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME...]", help="names, or patterns such as 'robustness/xue.*'"),
+    ] = None,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
+    stale: Annotated[bool, typer.Option(help="only those that are not up to date")] = False,
 ) -> None:
     """Recompute stored studies whole; without a name, list them and whether they are up to date."""
-    registry = _registry()
+    from fnmatch import fnmatchcase
+
+    from .ledger.spot import stored_studies
+
+    known = stored_studies(_registry())
     for name in names or []:
-        if name not in registry.studies:
-            expected = f"one of {', '.join(registry.studies) or 'none stored yet'}"
+        if not any(fnmatchcase(one, name) for one in known):
+            expected = f"one of {', '.join(known) or 'none stored yet'}"
             raise UnknownNameError("study", "NAME", name, expected)
-    for name in names or []:
-        table = registry.studies[name].run(jobs, progress=sys.stderr.isatty())
-        print(f"{name}: {len(table)} cells stored")
-    if not names:
-        for name, entry in registry.studies.items():
-            print(f"{name}: {entry.status()} - {entry.title}")
+    chosen = [
+        entry
+        for name, entry in known.items()
+        if (not names or any(fnmatchcase(name, pattern) for pattern in names))
+        and not (stale and entry.status() == "up to date")
+    ]
+    for entry in chosen:
+        if names or stale:
+            table = entry.run(jobs, sys.stderr.isatty(), scheduler=scheduler)
+            print(f"{entry.name}: {len(table)} cells stored", flush=True)
+        else:
+            print(f"{entry.name}: {entry.status()} - {entry.title}")
 
 
 @app.command()
@@ -239,6 +271,23 @@ def cite(
         print(found, end="")
     else:
         _print_json(found)
+
+
+@app.command("export")
+def export_ledger(
+    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("out"),
+) -> None:
+    """Write the whole ledger: JSON, CSV, Parquet, citations, schemas, claims, and a zip of all."""
+    from .ledger.headlines import statements
+    from .ledger.project import project
+    from .ledger.publication import publish
+    from .view.schemas import schemas
+
+    registry, stated = _registry(), statements()
+    records = [_record(registry, item_id) for item_id in _progress(list(registry.items))]
+    documents = [paper.document for paper in registry.papers.values()]
+    files = publish(records, out, project(), documents, schemas(), stated)
+    _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
 
 
 def main() -> None:
@@ -280,11 +329,24 @@ def _record(registry: Registry, item_id: str) -> dict[str, Any]:
 
 def _progress(ids: list[str]) -> Any:
     """Progress on a terminal, silence elsewhere."""
-    return tqdm(ids, leave=False, disable=not sys.stderr.isatty() or len(ids) < 2)
+    if not sys.stderr.isatty() or len(ids) < 2:
+        return ids
+    from tqdm import tqdm
+
+    return tqdm(ids, leave=False)
 
 
-def _console() -> Console:
-    return Console(width=None if sys.stdout.isatty() else 160, highlight=False, markup=False)
+def _console(stderr: bool = False) -> Console:
+    from rich.console import Console
+
+    width = None if (sys.stderr if stderr else sys.stdout).isatty() else 160
+    return Console(width=width, highlight=False, markup=False, stderr=stderr)
+
+
+def _describe(made: dict[str, Any]) -> None:
+    from .view.terminal import describe
+
+    print("\n".join(describe(made)))
 
 
 def _json(value: Any) -> str:
@@ -295,48 +357,6 @@ def _json(value: Any) -> str:
 
 def _print_json(value: Any) -> None:
     print(_json(value), end="")
-
-
-def _describe(made: dict[str, Any]) -> None:
-    """Print a record for a reader."""
-    print(f"{made['id']}  {made['title']}  [{made['kind']}, {made['place']}]")
-    print(f"verdict: {made['verdict']}" + (f" ({made['change']})" if made["change"] else ""))
-    if made["pending"]:
-        print(f"pending: {made['pending']}")
-    if made["caption"]:
-        print(made["caption"])
-    for check in made["checks"]:
-        mark = "holds" if check["holds"] else "fails"
-        found = json.dumps(check["obtained"], ensure_ascii=False)
-        print(f"  {mark}: {check['label']}: obtained {found}, expected {check['expected']}")
-    for name, value in (made["measured"] or {}).items():
-        print(f"  measured: {name} = {value}")
-    for entry in made["assumptions"]:
-        print(f"  assumption {entry['id']}: {entry['statement']} ({entry['value']})")
-    for entry in made["errata"]:
-        proof = entry["proof"]
-        proved = entry.get("no_proof") if proof is None else _proof_line(proof)
-        print(f"  erratum {entry['id']}: {entry['problem']} [{proved}]")
-    for datum in made["missing"]:
-        print(f"  not printed: {datum}")
-    print(f"  robustness: {_robustness_line(made['robustness'])}")
-
-
-def _proof_line(proof: dict[str, Any]) -> str:
-    return f"{'proved' if proof['holds'] else 'PROOF FAILS'}: {proof['statement']}"
-
-
-def _robustness_line(found: dict[str, Any] | None) -> str:
-    if found is None:
-        return "rests on no sampled assumption"
-    low, high = found["interval"]
-    text = (
-        f"verdict holds in {found['holds']:.1%} of {found['samples']} draws ({low:.1%}-{high:.1%})"
-    )
-    flip = found["flip"]
-    if flip is None:
-        return f"{text}; no single change within the plausible values flips it"
-    return f"{text}; flips at {flip['assumption']} = {flip['value']} (nominal {flip['nominal']})"
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Shared by all tests: a registry, and a quiet and reproducible hypothesis profile.
 
-Records come from the cache of the user, whose key is the fingerprint of source, data and versions:
-the suite computes each once, and the book built after it none.
+Records come from the cache of the user, each kept under what it depends on: the suite computes each
+once, and the book built after it none.
 """
 
 import matplotlib as mpl

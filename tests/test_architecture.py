@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).parents[1] / "dualarm_repro"
 FILES = sorted(PACKAGE.rglob("*.py"))
 #: Floors from the ground up. An import goes down, or stays within its own room.
 FLOORS = (
-    ("errors", "datafiles"),
+    ("errors", "tracking", "cache_folder", "sources", "datafiles", "kernel"),
     ("ledger",),
     ("arms",),
     ("scene",),
@@ -72,6 +72,30 @@ def test_file(path):
         assert FLOOR[other] <= FLOOR[room], f"{room} imports {other}, which is above it"
         assert other in FLOORS[0] or FLOOR[other] < FLOOR[room], f"{room} imports its peer {other}"
         assert (room, other) not in FORBIDDEN
+
+
+def _code(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def test_documents_cache_with_memo_and_read_no_docstrings():
+    """A plain cache would hide which files were opened; a docstring is no datum."""
+    for path in (PACKAGE / "papers").rglob("*.py"):
+        assert not re.search(r"\b(lru_cache|cached_property|functools\.cache)\b", _code(path)), path
+        assert not re.search(r"^from functools import .*\bcache\b", _code(path), re.M), path
+        assert "__doc__" not in _code(path), path
+
+
+def test_documents_do_not_read_whole_items():
+    """What a computation reads of the ledger is noted by the part it needs."""
+    for path in (PACKAGE / "papers").rglob("*.py"):
+        assert not re.search(r"REGISTRY\.(item|items|paper|papers|errata)\b", _code(path)), path
+
+
+def test_kernels_are_compiled_in_one_way():
+    for path in FILES:
+        if path.name != "kernel.py":
+            assert not re.search(r"\bnjit\b", _code(path)), path
 
 
 def test_papers_do_not_import_each_other():

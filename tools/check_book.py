@@ -85,14 +85,17 @@ def wrong_counts(pages: Pages, page: str, counts: pd.DataFrame) -> list[str]:
     return [] if rows == expected else [f"{page}: shows the counts {rows}, not {expected}"]
 
 
-def broken_links(pages: Pages) -> list[str]:
-    """Links in the outputs of cells, which Sphinx does not check, that lead nowhere."""
+def broken_links(pages: Pages, html: Path) -> list[str]:
+    """Links in the outputs of cells, which Sphinx does not check, to no page and no file."""
     ids = {name: {tag["id"] for tag in soup.find_all(id=True)} for name, soup in pages.items()}
     lines = []
     for name, soup in pages.items():
         for link in soup.select(".cell_output a[href]"):
             address, _, anchor = link["href"].partition("#")
-            target = normpath(join(dirname(name), address)).removesuffix(".html")
+            path = normpath(join(dirname(name), address))
+            target = path.removesuffix(".html")
+            if target not in pages and html.joinpath(path).is_file():
+                continue
             if target not in pages or (anchor and anchor not in ids[target]):
                 lines.append(f"{name}: the link {link['href']} leads nowhere")
     return lines
@@ -166,8 +169,8 @@ def violations(root: Path) -> list[str]:
     """Everything that is wrong with the book built below ``root``."""
     from dualarm_repro.ledger import record
     from dualarm_repro.papers import load
-    from dualarm_repro.view.card import short
     from dualarm_repro.view.overview import verdict_counts
+    from dualarm_repro.view.wording import short
 
     registry, book, html = load(), root / "book", root / "_build" / "html"
     pages = read_pages(html)
@@ -180,7 +183,7 @@ def violations(root: Path) -> list[str]:
         lines += wrong_counts(pages, page, verdict_counts(registry))
     expected = [str(p.relative_to(book).with_suffix("")) for p in notebooks(book)]
     lines += not_executed(pages, "status", expected)
-    lines += broken_links(pages) + images_without_alt(pages) + failed_outputs(pages)
+    lines += broken_links(pages, html) + images_without_alt(pages) + failed_outputs(pages)
     lines += network_use(pages, html)
     return lines + machine_paths(html, (root, Path.home())) + over_budget(html)
 

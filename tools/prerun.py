@@ -6,20 +6,30 @@ them on all processors and lists every failure.
 
 from __future__ import annotations
 
+import json
 import logging
 import os
 import re
 import sys
+from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import yaml
 from jupyter_cache import get_cache
 from jupyter_cache.executors import load_executor
 
+from dualarm_repro.datafiles import data_path
 from dualarm_repro.ledger import record
+from dualarm_repro.ledger.closure import closure_of_modules, hash_file
+from dualarm_repro.ledger.files import to_json
+from dualarm_repro.ledger.reference import read_costs
 from dualarm_repro.papers import load
+from dualarm_repro.sources import graph
+from dualarm_repro.view.page import pictures
 
 ROOT = Path(__file__).resolve().parents[1]
 READER = {"name": "myst_nb_md", "type": "plugin"}
@@ -63,22 +73,67 @@ def isolate_kernels(folder: Path) -> None:
     os.environ["IPYTHONDIR"] = str(folder)
 
 
-def warm_records() -> None:
-    """Compute the record of every item once, the items of a page together, pages in parallel.
+def warm(item_ids: Iterable[str] | None = None) -> None:
+    """Compute the record and the pictures of every item once, in parallel.
 
-    Several pages show all records; without this each kernel that starts early computes all of them.
+    The items of a page go together, since they share what they compute; the longest page first, so
+    that none runs alone at the end.
     """
+    registry = load()
+    chosen = registry.items if item_ids is None else set(item_ids)
+    costs = read_costs()
     pages: dict[str, list[str]] = {}
-    for item_id, checker in load().checkers.items():
-        pages.setdefault(checker.page, []).append(item_id)
+    for item_id, checker in registry.checkers.items():
+        if item_id in chosen:
+            pages.setdefault(checker.page, []).append(item_id)
+    order = sorted(pages.values(), key=lambda ids: -sum(costs.get(i, 0.0) for i in ids))
     with ProcessPoolExecutor() as pool:
-        list(pool.map(_compute_records, pages.values()))
+        list(pool.map(_compute, order))
 
 
-def _compute_records(item_ids: list[str]) -> None:
+def _compute(item_ids: list[str]) -> None:
     for item_id in item_ids:
         with suppress(Exception):  # the page that shows the item will report it
-            record(load(), item_id)
+            pictures(load(), item_id)
+
+
+def page_key(page: Path) -> str:
+    """What the outputs of a page depend on: its cells, the library it imports, the items it shows.
+
+    A page that asks for the whole registry depends on every item; robots and scenes count for all.
+    """
+    text = page.read_text(encoding="utf-8")
+    cells = re.findall(r"^```\{code-cell\}.*?^```", text, re.DOTALL | re.MULTILINE)
+    code = "\n".join(cells)
+    modules = {name for name in re.findall(r"^(?:from|import) (dualarm_repro[\w.]*)", code, re.M)}
+    items = re.findall(r'"((?:\w+)\.(?:\w+))"', code)
+    registry = load()
+    shown = registry.items if "load()" in code else [i for i in items if i in registry.items]
+    known = sorted(name for name in modules if name in graph().files)
+    parts = [code, closure_of_modules(tuple(known), drawn=True).digest]
+    parts += [to_json(record(registry, item_id), indent=None) for item_id in shown]
+    parts += [to_json(pictures(registry, i), indent=None) for i in items if i in registry.items]
+    for folder in ("robots", "scenes"):
+        parts += [hash_file(path) for path in sorted(data_path(folder).glob("*.yaml"))]
+    return sha256("\0".join(parts).encode()).hexdigest()
+
+
+def drop_changed(cache: Any, pages: Iterable[Path], keys_file: Path) -> None:
+    """Remove from the notebook cache every page whose key has changed since it was executed.
+
+    The cache itself knows the cells only.
+    """
+    try:
+        known = json.loads(keys_file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        known = {}
+    keys = {str(page): page_key(page) for page in pages}
+    stale = {page for page, key in keys.items() if known.get(page) != key}
+    for entry in cache.list_cache_records():
+        if entry.uri in stale or entry.uri not in keys:
+            cache.remove_cache(entry.pk)
+    keys_file.parent.mkdir(parents=True, exist_ok=True)
+    keys_file.write_text(json.dumps(keys, indent=1), encoding="utf-8")
 
 
 def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
@@ -90,7 +145,9 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
         Page to traceback, for each notebook that failed.
     """
     cache = get_cache(cache_folder)
-    uris = [str(page) for page in notebooks(book)]
+    pages = notebooks(book)
+    drop_changed(cache, pages, cache_folder / "pages.json")
+    uris = [str(page) for page in pages]
     for uri in uris:
         cache.add_nb_to_project(uri, read_data=READER)
     log = logging.getLogger("prerun")
@@ -108,7 +165,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
 def main() -> int:
     """Execute the notebooks of the book; 1 if any failed. ``--records``: compute records only."""
     if "--records" in sys.argv[1:]:
-        warm_records()
+        warm()
         return 0
     config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
     build = ROOT / "_build"
@@ -117,7 +174,7 @@ def main() -> int:
     if missing := [page for page in toc_pages(book) if not (book / f"{page}.md").is_file()]:
         print(f"in _toc.yml, but no such file: {', '.join(missing)}", file=sys.stderr)
         return 1
-    warm_records()
+    warm()
     failed = prerun(book, build / ".jupyter_cache", config["execute"]["timeout"])
     for page, traceback in failed.items():
         print(f"{page} failed:\n{traceback}", file=sys.stderr)

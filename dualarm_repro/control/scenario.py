@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError
 
@@ -60,3 +60,8 @@ def load_scenario(path: Path) -> Scenario:
         return Scenario.model_validate(content)
     except ValidationError as error:
         raise from_validation(path, error) from None
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a scenario file, for editors and other tools."""
+    return Scenario.model_json_schema()

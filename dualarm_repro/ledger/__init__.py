@@ -4,9 +4,19 @@ from .evaluation import Evaluation, evaluate, prove
 from .record import record
 from .registry import REGISTRY, Registry
 from .result import Assumed, Proof, Result
-from .rules import Adopts, Bounded, Exceeds, Generally, Is, NoOriginal, Role, Rounds, Rule
+from .rules import (
+    Adopts,
+    Bounded,
+    Is,
+    NoOriginal,
+    Residual,
+    Role,
+    Rounds,
+    Rule,
+)
 from .settled import Settled, settle
 from .shares import Share
+from .statistical_rules import Exceeds, Generally
 from .study import Study
 from .verdict import MEANING, Verdict
 
@@ -23,6 +33,7 @@ __all__ = [
     "NoOriginal",
     "Proof",
     "Registry",
+    "Residual",
     "Result",
     "Role",
     "Rounds",

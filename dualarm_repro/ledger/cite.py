@@ -1,24 +1,38 @@
-"""Citations of a reproduced result and of the document it reproduces: BibTeX and CSL-JSON."""
+"""Citations of a reproduced result and of the document it reproduces: BibTeX and CSL-JSON.
+
+BibTeX is written by pybtex from plain text. Original titles and names stand beside the English
+ones: in BibTeX as ``origtitle`` and ``nameaddon``, the fields biblatex has for them, in CSL-JSON as
+``original-title`` and ``original-author``. What a document does not print is left out.
+"""
 
 from __future__ import annotations
 
 import re
-from importlib.metadata import version
 from typing import Any
 
 from ..errors import UnknownNameError
+from .project import Project, project
 from .registry import Registry
-from .schema import Document
+from .schema import Document, Item
 
 FORMATS = ("bibtex", "csl-json")
-PROJECT = "dualarm_repro"
-AUTHORS = "The dualarm_repro developers"
-YEAR = "2026"
 _CSL_TYPE = {
     "article": "article-journal",
     "inproceedings": "paper-conference",
     "patent": "patent",
     "misc": "document",
+}
+#: Where a type names its venue; without one BibTeX calls the entry incomplete.
+_VENUE = {"article": "journal", "inproceedings": "booktitle"}
+#: BibTeX names a language, CSL-JSON takes its tag.
+_LANGUAGE = {"zh": "chinese"}
+#: What has a meaning in TeX and pybtex leaves as it is; it escapes the other signs itself.
+_TEX = {
+    "\\": r"\textbackslash{}",
+    "{": r"\textbraceleft{}",
+    "}": r"\textbraceright{}",
+    "$": r"\$",
+    "^": r"\textasciicircum{}",
 }
 
 
@@ -36,71 +50,99 @@ def cite(registry: Registry, item_id: str, form: str, verdict: str) -> Any:
     if form not in FORMATS:
         raise UnknownNameError("cite", "--format", form, f"one of {', '.join(FORMATS)}")
     item, document = registry.item(item_id), registry.paper_of(item_id).document
-    key = re.sub(r"\W+", "_", f"{PROJECT}_{item_id}")
-    title = f"{item_id}: {item.title}"
-    note = (
-        f"Verdict: {verdict}. Reproduces {item.kind} {item_id.partition('.')[2]} of {document.id}"
-    )
-    number = version(PROJECT)
+    result = _Result(item_id, item, document.id, verdict, project())
     if form == "csl-json":
-        result = {
-            "id": key,
-            "type": "software",
-            "title": title,
-            "author": [{"literal": AUTHORS}],
-            "container-title": PROJECT,
-            "version": number,
-            "issued": {"date-parts": [[int(YEAR)]]},
-            "note": note,
+        return [result.csl(), csl(document)]
+    return result.bibtex() + "\n" + bibtex(document)
+
+
+class _Result:
+    """One reproduced result, as a thing to cite."""
+
+    def __init__(self, item_id: str, item: Item, paper: str, verdict: str, made_by: Project):
+        self.key = re.sub(r"\W+", "_", f"{made_by.name}_{item_id}")
+        self.title = f"{item_id}: {item.title}"
+        local = item_id.partition(".")[2]
+        self.note = f"Verdict: {verdict}. Reproduces {item.kind} {local} of {paper}"
+        self.project = made_by
+
+    def bibtex(self) -> str:
+        """BibTeX entry."""
+        fields = {
+            "title": self.title,
+            "howpublished": f"{self.project.name}, version {self.project.version}",
+            "year": self.project.year,
+            "note": self.note,
         }
-        return [result, csl(document)]
-    fields = {
-        "author": f"{{{AUTHORS}}}",
-        "title": f"{{{_escape(title)}}}",
-        "howpublished": f"{{{_escape(PROJECT)}, version {number}}}",
-        "year": f"{{{YEAR}}}",
-        "note": f"{{{_escape(note)}}}",
-    }
-    return _entry("misc", key, fields) + "\n" + bibtex(document)
+        return _entry("misc", self.key, self.project.authors, fields)
+
+    def csl(self) -> dict[str, Any]:
+        """CSL-JSON entry."""
+        return {
+            "id": self.key,
+            "type": "software",
+            "title": self.title,
+            "author": [{"literal": name} for name in self.project.authors],
+            "container-title": self.project.name,
+            "version": self.project.version,
+            "issued": {"date-parts": [[int(self.project.year)]]},
+            "note": self.note,
+        }
 
 
 def bibtex(document: Document) -> str:
-    """BibTeX entry of a document."""
-    kind = "misc" if document.type == "patent" else document.type
-    venue = "booktitle" if kind == "inproceedings" else "journal"
+    """BibTeX entry of a document, ending with a newline."""
+    venue = _VENUE.get(document.type)
+    kind = "misc" if venue and not document.journal else document.type
     fields = {
-        "author": " and ".join(document.authors),
-        "title": f"{{{_escape(document.title)}}}",
-        venue: _escape(document.journal or ""),
-        "institution": _escape(document.affiliation or ""),
-        "year": document.year or "",
-        "note": _escape(document.note or ""),
+        "title": document.title,
+        "origtitle": document.title_original,
+        "nameaddon": "; ".join(_together(name) for name in document.authors_original),
+        venue or "howpublished": document.journal,
+        "institution": document.affiliation,
+        "year": document.year,
+        "language": _LANGUAGE.get(document.language, document.language),
+        "note": document.note,
     }
-    return _entry(kind, document.id, {k: f"{{{v}}}" for k, v in fields.items() if v})
+    return _entry(kind, document.id, document.authors, fields)
 
 
 def csl(document: Document) -> dict[str, Any]:
     """CSL-JSON entry of a document."""
-    people = [name.partition(",") for name in document.authors]
     entry: dict[str, Any] = {
         "id": document.id,
         "type": _CSL_TYPE[document.type],
         "title": document.title,
-        "author": [{"family": f.strip(), "given": g.strip()} for f, _, g in people],
+        "original-title": document.title_original,
+        "author": [_csl_name(name) for name in document.authors],
+        "original-author": [_csl_name(name) for name in document.authors_original],
+        "container-title": document.journal,
+        "language": document.language,
+        "note": document.note,
     }
-    if document.journal:
-        entry["container-title"] = document.journal
     if document.year and document.year.isdigit():
         entry["issued"] = {"date-parts": [[int(document.year)]]}
-    if document.note:
-        entry["note"] = document.note
     return {field: value for field, value in entry.items() if value}
 
 
-def _entry(kind: str, key: str, fields: dict[str, str]) -> str:
-    lines = ",\n".join(f"  {name} = {value}" for name, value in fields.items())
-    return f"@{kind}{{{key},\n{lines}\n}}\n"
+def _entry(kind: str, key: str, authors: Any, fields: dict[str, str | None]) -> str:
+    from pybtex.database import BibliographyData, Entry, Person
+
+    names = [_tex(name) if "," in name else f"{{{_tex(name)}}}" for name in authors]
+    persons = {"author": [Person(name) for name in names]} if names else {}
+    written = {name: _tex(value) for name, value in fields.items() if value}
+    return BibliographyData({key: Entry(kind, written, persons)}).to_string("bibtex")
 
 
-def _escape(text: str) -> str:
-    return re.sub(r"([&%$#_])", r"\\\1", text)
+def _tex(text: str) -> str:
+    return "".join(_TEX.get(sign, sign) for sign in text)
+
+
+def _csl_name(name: str) -> dict[str, str]:
+    family, comma, given = name.partition(",")
+    return {"family": family.strip(), "given": given.strip()} if comma else {"literal": name}
+
+
+def _together(name: str) -> str:
+    """A name in the order it is written in East Asian scripts, without the comma of the ledger."""
+    return "".join(part.strip() for part in name.split(","))

@@ -28,7 +28,16 @@ if TYPE_CHECKING:
 _CARRIERS = (f"{ROOT}.view", f"{ROOT}.ledger")
 _COMPUTING = frozenset(
     f"{ROOT}.ledger.{name}"
-    for name in ("assumptions", "formula", "printed", "rules", "shares", "streams", "verdict")
+    for name in (
+        "assumptions",
+        "formula",
+        "printed",
+        "rules",
+        "shares",
+        "statistical_rules",
+        "streams",
+        "verdict",
+    )
 )
 _BOOKKEEPING = frozenset(f"{ROOT}.{name}" for name in ("sources", "cache_folder", "tracking"))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import LedgerError
+from ..tracking import recording
 from .registry import Checker, Registry
 from .result import Assumed, Proof, Result
 from .rules import Evidence
@@ -16,13 +17,17 @@ from .verdict import Verdict, decide
 
 @dataclass(frozen=True)
 class Evaluation:
-    """One item, its result and verdict; ``result`` is None for an item that is not attempted."""
+    """One item, its result and verdict; ``result`` is None for an item that is not attempted.
+
+    ``inputs`` are those that the computation itself read, see :mod:`..tracking`.
+    """
 
     item_id: str
     item: Item
     checker: Checker | None
     result: Result | None
     verdict: Verdict
+    inputs: frozenset[str] = frozenset()
 
     @property
     def evidence(self) -> Evidence:
@@ -43,6 +48,7 @@ class Evaluation:
                 "expected": rule.expectation(evidence),
                 "obtained": rule.found(evidence),
                 "holds": rule.holds(evidence),
+                "outcome": str(rule.outcome(evidence)),
             }
             for rule in self.checker.rules
         ]
@@ -82,7 +88,8 @@ def evaluate(
     if checker is None:
         return Evaluation(item_id, item, None, None, Verdict.NOT_ATTEMPTED)
     assumed = assumed_values(registry, item_id, changes)
-    result = checker.compute(assumed)
+    with recording() as inputs:
+        result = checker.compute(assumed)
     if undeclared := sorted(assumed.read - {*item.assumptions, *item.context}):
         raise LedgerError(f"{item_id}: reads the assumptions {undeclared}, but declares them not")
     for name in sorted(assumed.read):
@@ -93,7 +100,7 @@ def evaluate(
         assumed=bool(item.assumptions),
         change=checker.change,
     )
-    return Evaluation(item_id, item, checker, result, verdict)
+    return Evaluation(item_id, item, checker, result, verdict, frozenset(inputs))
 
 
 def prove(registry: Registry, erratum_id: str) -> Proof | None:

@@ -9,7 +9,7 @@ compared with.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from tokenize import TokenError
 from typing import Any
@@ -89,8 +89,14 @@ class Formula:
         return {str(symbol) for side in self.sides for symbol in side.free_symbols}
 
 
-def parse(text: str) -> Formula:
+def parse(text: str, functions: Iterable[str] = ()) -> Formula:
     """Parse a printed formula.
+
+    Parameters
+    ----------
+    functions
+        Names before parentheses that are functions, besides those of the notation; any other such
+        name only lists what it depends on: ``J(q)`` is J.
 
     Raises
     ------
@@ -99,7 +105,8 @@ def parse(text: str) -> Formula:
     """
     try:
         counted = _SUM.sub(lambda m: f"total_{m[1]}_{m[2]}_{m[3]}*", text)
-        sides = tuple(_side(part) for part in _RELATION.split(counted))
+        known = _KNOWN | {name: sp.Function(name) for name in functions}
+        sides = tuple(_side(part, known) for part in _RELATION.split(counted))
     except (
         TokenError,
         SyntaxError,
@@ -113,16 +120,20 @@ def parse(text: str) -> Formula:
     return Formula(text, sides)
 
 
-def _side(text: str) -> sp.Expr:
+def _side(text: str, known: Mapping[str, Any]) -> sp.Expr:
     text = text.strip()
     branches = re.findall(r"(.+?) if ([^,]+?)(?:,|$)", text)
     if not branches:
-        return _plain(text)
-    parts = [part for value, condition in branches for part in (_plain(value), _when(condition))]
+        return _plain(text, known)
+    parts = [
+        part
+        for value, condition in branches
+        for part in (_plain(value, known), _when(condition, known))
+    ]
     return _KNOWN["cases"](*parts)
 
 
-def _when(condition: str) -> sp.Expr:
+def _when(condition: str, known: Mapping[str, Any]) -> sp.Expr:
     for sign, name, swapped in (
         ("<=", "at_most", False),
         (">=", "at_most", True),
@@ -130,28 +141,33 @@ def _when(condition: str) -> sp.Expr:
         (">", "below", True),
     ):
         if sign in condition:
-            left, right = (_plain(part) for part in condition.split(sign))
+            left, right = (_plain(part, known) for part in condition.split(sign))
             return _KNOWN[name](*((right, left) if swapped else (left, right)))
     raise ValueError(f"{condition!r} is no comparison")
 
 
-def _plain(text: str) -> sp.Expr:
+def _plain(text: str, known: Mapping[str, Any]) -> sp.Expr:
     text = re.sub(r"\blambda\b", "lambda_", text.strip())
     text = _norms(text)
     text = re.sub(r"\^\*", "_star", text)
     text = re.sub(r"_\{(\w+)\}", r"_\1", text)
     text = re.sub(r"(?<=\w)\((i|j|k)\)", r"_\1", text)
     text = re.sub(r"(\w+|\([^()]*\))\^T(\((?:[^()]*)\))?", r"transpose(\1)", text)
+<<<<<<< HEAD
+    functions = "|".join(known)
+    text = re.sub(rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)", r"\1", text)
+=======
     functions = "|".join(_KNOWN)
     arguments = rf"\b(?!(?:{functions})\b)([A-Za-z]\w*)\(([\w, ]*)\)"
     while (shorter := re.sub(arguments, r"\1", text)) != text:
         text = shorter
     text = re.sub(r"\bgrad (\w+)", r"grad(\1)", text)
+>>>>>>> qiu
     text = re.sub(r"(?<=[\w)]) (?=[A-Za-z(])", "*", text)
     text = text.replace("^", "**")
-    names = set(re.findall(r"[A-Za-z_]\w*", text)) - _KNOWN.keys()
+    names = set(re.findall(r"[A-Za-z_]\w*", text)) - known.keys()
     symbols = {name: sp.Symbol(name, commutative=False) for name in names}
-    return parse_expr(text, local_dict={**_KNOWN, **symbols}, evaluate=True)
+    return parse_expr(text, local_dict={**known, **symbols}, evaluate=True)
 
 
 def _norms(text: str) -> str:

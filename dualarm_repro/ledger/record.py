@@ -117,6 +117,7 @@ def compose(
         "search": settled.search,
         "seek": item.seek,
         "robustness": settled.robustness,
+        "draws": settled.draws,
         "code": _code(checker.compute, result.figure if result else None) if checker else None,
         "page": checker.page if checker else None,
         "url": f"{checker.page}.html#{item_id}" if checker else None,

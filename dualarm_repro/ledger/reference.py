@@ -6,10 +6,12 @@ import json
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 from ..datafiles import data_path
 from ..errors import DataFileError
+from .comparison import Comparison, comparisons
 from .drift import differences
 from .evaluation import evaluate, prove
 from .files import to_json, write_text
@@ -44,6 +46,20 @@ def read_reference(paper: str) -> dict[str, Any]:
     return found
 
 
+def costs_path() -> Path:
+    """File with the seconds that each item took when the reference was written."""
+    return data_path("results", "costs.json")
+
+
+def read_costs() -> dict[str, float]:
+    """Seconds per item, to start the longest first; empty if none are known."""
+    try:
+        found = json.loads(costs_path().read_text(encoding="utf-8"))
+        return {str(key): float(value) for key, value in found.items()}
+    except (OSError, ValueError, AttributeError, TypeError):
+        return {}
+
+
 def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
     """What is compared: verdict, obtained values and the proofs of the errata, as plain JSON."""
     evaluation = evaluate(registry, item_id)
@@ -55,6 +71,12 @@ def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
         "proofs": {key: proof.holds for key, proof in proofs.items() if proof},
     }
     return json.loads(to_json(found))
+
+
+def declared(registry: Registry, item_id: str) -> list[Comparison]:
+    """Values of an item that are compared otherwise than digit by digit."""
+    checker = registry.checker(item_id)
+    return comparisons(registry.look(item_id), checker.rules if checker else ())
 
 
 def verify(
@@ -78,13 +100,16 @@ def verify(
     Returns
     -------
     dict
-        ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``) and ``verdicts``
-        (count per verdict).
+        ``checked`` (count), ``drifted`` (list of ``{"id", "differences"}``), ``verdicts`` (count
+        per verdict) and ``compared`` (list of ``{"id", "path", "how"}``: the values that are not
+        compared by digits).
     """
     ids = list(item_ids)
     tasks = ((_outcome, registry.reopen, item_id) for item_id in ids)
     made = results(tasks, len(ids), "verify", jobs, progress, scheduler)
-    found = dict(zip(ids, made, strict=True))
+    found, seconds = {}, {}
+    for item_id, (one, taken) in zip(ids, made, strict=True):
+        found[item_id], seconds[item_id] = one, round(taken, 1)
     papers = {item_id.partition(".")[0] for item_id in found}
     reference = {key: value for paper in papers for key, value in read_reference(paper).items()}
     if update:
@@ -92,15 +117,28 @@ def verify(
             kept = {**read_reference(paper), **found}
             items = {i: kept[i] for i in registry.items if i in kept and i.startswith(f"{paper}.")}
             write_text(reference_path(paper), to_json({"items": items}))
+        write_text(costs_path(), to_json({**read_costs(), **seconds}))
+    ways = {item_id: declared(registry, item_id) for item_id in found}
     drifted = [
         {"id": item_id, "differences": lines}
         for item_id, one in found.items()
-        if not update and (lines := differences(reference.get(item_id), one))
+        if not update and (lines := differences(reference.get(item_id), one, ways[item_id]))
+    ]
+    compared = [
+        {"id": item_id, "path": way.path, "how": way.how}
+        for item_id, declared_here in ways.items()
+        for way in declared_here
     ]
     counts = Counter(one["verdict"] for one in found.values())
     verdicts = {str(v): counts[v] for v in Verdict if counts[v]}
-    return {"checked": len(found), "drifted": drifted, "verdicts": verdicts}
+    return {
+        "checked": len(found),
+        "drifted": drifted,
+        "verdicts": verdicts,
+        "compared": compared,
+    }
 
 
-def _outcome(reopen: Any, item_id: str) -> dict[str, Any]:
-    return outcome(reopen(), item_id)
+def _outcome(reopen: Any, item_id: str) -> tuple[dict[str, Any], float]:
+    start = process_time()
+    return outcome(reopen(), item_id), process_time() - start

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
@@ -11,7 +12,7 @@ from typing import Any
 
 from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
-from ..tracking import note
+from ..tracking import forget, note
 from .result import Assumed, Proof, Result
 from .rules import Rule
 from .schema import Assumption, Erratum, Item, PaperFile, load_paper
@@ -228,12 +229,35 @@ class Registry:
         return {key: self.assumption(f"{paper}.{key}") for key in self._papers[paper].assumptions}
 
     def part(self, name: str) -> Any:
-        """The part of a document that a recorded input ``papers/xue.yaml#items.tab01`` names."""
+        """The part of a document that a recorded input ``papers/xue.yaml#items.tab01`` names.
+
+        Looking at it to see whether it changed is no dependency, so nothing is noted.
+        """
         path, _, fields = name.partition("#")
-        found: Any = self.paper(Path(path).stem).model_dump(mode="json")
+        document = Path(path).stem
+        self._read(document)
+        found: Any = self._papers[document].model_dump(mode="json")
         for field in fields.split(".") if fields else ():
             found = found.get(field) if isinstance(found, dict) else None
         return found
+
+    @contextmanager
+    def with_printed(self, item_id: str, value: Any) -> Iterator[None]:
+        """While the context lasts, an item prints something else; no memo answers with the old.
+
+        What was read before, and what is read within, are kept apart by the inputs that
+        computations note.
+        """
+        paper, (name, _, key) = self.paper_of(item_id), item_id.partition(".")
+        item = paper.items[key].model_copy(update={"printed": value})
+        part = _part(item_id, "items", "printed")
+        self._papers[name] = paper.model_copy(update={"items": {**paper.items, key: item}})
+        forget(part)
+        try:
+            yield
+        finally:
+            self._papers[name] = paper
+            forget(part)
 
     @property
     def items(self) -> dict[str, Item]:

@@ -27,8 +27,9 @@ class Result:
     alt
         Text for a reader who cannot see the figure.
     witnesses
-        For a statement about a population that a sample leaves open: an example for each side, with
-        ``verdict`` and ``values``.
+        Examples from a stored study, with ``choice``, ``verdict`` (``holds`` or ``fails``) and
+        ``values``: one for each side of a statement about a population that a sample leaves open,
+        or a choice that shows a statement about one run to be possible.
     figure, scene
         Draw the figure (a matplotlib figure) or the 3-D scene (an object with ``html()``); called
         only when somebody looks.

@@ -9,15 +9,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
+from .comparison import Comparison, comparisons
 from .drift import differences
 from .evaluation import Evaluation, evaluate
 from .files import to_json
+from .printed import replaced
 from .registry import Registry
 from .rules import Role
 from .schema import Assumption, Item
@@ -33,6 +36,8 @@ _BISECTIONS = 8
 _BASES = 6
 #: Relative change by which a number without a declared range is probed.
 _PROBE = 0.01
+#: Relative change of all drawn numbers that no well-conditioned outcome notices.
+_NUDGE = 1e-10
 
 
 def study_of(registry: Registry, item_id: str, samples: int | None = None) -> Study | None:
@@ -70,6 +75,8 @@ def study_of(registry: Registry, item_id: str, samples: int | None = None) -> St
             },
         },
         nested=("judged", "values"),
+        compared=tuple(_below("judged", comparisons(item, checker.rules))),
+        knife_edge="delicate",
         also=roots_of(registry, item_id),
         registry=registry,
     )
@@ -90,10 +97,12 @@ def varied(entries: Mapping[str, Assumption]) -> dict[str, Assumption]:
 
 
 def judged(evaluation: Evaluation) -> dict[str, Any]:
-    """What the rules look at, by the key of the rule, and the verdict."""
+    """What the rules look at, where they look, and the verdict."""
     evidence = evaluation.evidence
-    found = {rule.key: rule.found(evidence) for rule in evaluation.checker.rules}
-    return json.loads(to_json({**found, "verdict": evaluation.verdict}))
+    found: dict[str, Any] = {"verdict": str(evaluation.verdict)}
+    for rule in evaluation.checker.rules:
+        found = replaced(found, tuple(rule.key.split(".")), rule.found(evidence))
+    return json.loads(to_json(found))
 
 
 def miss(evaluation: Evaluation) -> float:
@@ -136,16 +145,20 @@ def _cell(
     item = registry.look(item_id)
     entries = {key: registry.paper_of(item_id).assumptions[key] for key in item.assumptions}
     at = partial(_outcome, registry, item_id)
+    declared = comparisons(item, registry.checker(item_id).rules)
     row: dict[str, Any] = dict.fromkeys(
-        ("verdict", "met", "miss", "judged", "values", "error", "moves", "change", "evaluations")
-    )
+        ("verdict", "met", "miss", "judged", "values", "error", "delicate", "moves", "change",
+         "evaluations")
+    )  # fmt: skip
     if settings["kind"] == "draw":
         choice = varied(entries)
         values = {k: a.at(u) for (k, a), u in zip(choice.items(), settings["at"], strict=True)}
-        return row | at(values) | {"values": to_json(values, indent=None)}
+        found = at(values)
+        delicate = _moved(found, at(_nudged(values, choice)), declared)
+        return row | found | {"values": to_json(values, indent=None), "delicate": delicate}
     if settings["kind"] == "search":
         return row | _climb(at, varied(entries), item.search.evaluations, rng)
-    return row | _change(at, settings["assumption"], entries, rng)
+    return row | _change(at, settings["assumption"], entries, declared, rng)
 
 
 def _outcome(registry: Registry, item_id: str, values: Mapping[str, Any]) -> dict[str, Any]:
@@ -167,6 +180,7 @@ def _change(
     at: Callable[[Mapping[str, Any]], dict[str, Any]],
     key: str,
     entries: Mapping[str, Assumption],
+    declared: list[Comparison],
     rng: np.random.Generator,
 ) -> dict[str, Any]:
     """What a change of one assumption does: whether anything judged moves, and the flip."""
@@ -179,7 +193,7 @@ def _change(
     for number, base in enumerate(bases):
         before = at(base) if base else nominal
         for value in _others(assumption, base.get(key, assumption.value)):
-            if _moved(before, at({**base, key: value})):
+            if _moved(before, at({**base, key: value}), declared):
                 return found | {"moves": f"draw {number}" if number else "the nominal values"}
     return found
 
@@ -205,8 +219,25 @@ def _probed(value: Any) -> Any:
     return value * (1.0 + _PROBE) if value else _PROBE
 
 
-def _moved(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
-    return bool(differences(json.loads(before["judged"]), json.loads(after["judged"])))
+def _moved(before: Mapping[str, Any], after: Mapping[str, Any], declared: list[Comparison]) -> bool:
+    """Whether anything that is judged differs; a residual does not while it keeps its bound."""
+    left, right = ({"obtained": json.loads(one["judged"])} for one in (before, after))
+    return bool(differences(left, right, declared))
+
+
+def _nudged(values: Mapping[str, Any], choice: Mapping[str, Assumption]) -> dict[str, Any]:
+    """The same values, each number changed by next to nothing towards the middle of its range."""
+    found = dict(values)
+    for key, assumption in choice.items():
+        if assumption.range is not None:
+            low, high = assumption.range
+            found[key] += np.sign(low + high - 2 * found[key]) * _NUDGE * (high - low)
+            found[key] = float(found[key])
+    return found
+
+
+def _below(column: str, declared: list[Comparison]) -> list[Comparison]:
+    return [replace(way, path=f"{column}.{way.path}") for way in declared]
 
 
 def _flip(

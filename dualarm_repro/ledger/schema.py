@@ -58,14 +58,24 @@ class Document(Model):
     id: Key
     order: int = Field(default=0, description="place in listings")
     type: Literal["article", "inproceedings", "patent", "misc"]
+    language: Text | None = Field(default=None, description="of the text, as a BCP 47 tag")
     title: Text = Field(description="title in English")
     title_original: Text | None = None
     authors: list[Text] = Field(default=[], description="family name, given name")
+    authors_original: list[Text] = Field(
+        default=[], description="the same people in the script of the source, family name first"
+    )
     affiliation: Text | None = None
     journal: Text | None = None
     year: Text | None = None
     note: Text | None = None
     unknown: list[Text] = Field(default=[], description="bibliographic fields the source lacks")
+
+    @model_validator(mode="after")
+    def _same_people(self) -> Document:
+        if self.authors_original and len(self.authors_original) != len(self.authors):
+            raise ValueError("authors_original: one name for each of authors")
+        return self
 
 
 class Assumption(Model):
@@ -146,6 +156,20 @@ class Search(Model):
     evaluations: int = Field(default=40, gt=0, description="evaluations of each climb")
 
 
+class Tolerance(Model):
+    """How far an ill-conditioned value may move from one processor to another, and why."""
+
+    relative: float | None = Field(default=None, gt=0, le=0.1)
+    absolute: float | None = Field(default=None, gt=0)
+    reason: Text = Field(description="why six digits do not hold, with the spread measured")
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Tolerance:
+        if (self.relative is None) == (self.absolute is None):
+            raise ValueError("give either relative or absolute")
+        return self
+
+
 class Item(Model):
     """One printed figure, table, equation or claim."""
 
@@ -183,6 +207,10 @@ class Item(Model):
     )
     seek: Text | None = Field(
         default=None, description="which witness is still to be sought, and where"
+    )
+    tolerances: dict[Text, Tolerance] = Field(
+        default={},
+        description="obtained values `verify` compares less closely; * is any one key or index",
     )
     notes: Text | None = None
     pending: Text | None = Field(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from ..errors import LedgerError
+from ..datafiles import opened
 from .evaluation import Evaluation
 from .files import to_json
 from .influence import first_order
@@ -43,6 +43,8 @@ class Settled:
         How a witness was looked for where none was found.
     decided_by
         The statement that decided an item without an original.
+    draws
+        ``none`` where nothing varies, else the status of the stored draws.
     """
 
     verdict: Verdict
@@ -50,6 +52,7 @@ class Settled:
     robustness: dict[str, Any] | None = None
     search: dict[str, Any] | None = None
     decided_by: str | None = None
+    draws: str = "none"
 
 
 def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str], str]) -> Settled:
@@ -57,7 +60,9 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
 
     A statement about one run is possible (``reproduced-under-assumption``) if any declared choice
     meets print, else ``not-reproduced``. One that claims more is ``undecidable`` where declared
-    choices disagree. An item without an original takes the verdict of a statement that decides it.
+    choices disagree. Choices are the draws that are stored for the item, and the witnesses that the
+    computation found in a study of its own. An item without an original takes the verdict of a
+    statement that decides it.
 
     Parameters
     ----------
@@ -65,18 +70,13 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
         Gives the settled verdict of another item.
     """
     item = evaluation.item
-    table = stored(registry, evaluation.item_id)
+    draws, table = stored(registry, evaluation.item_id)
     own = evaluation.verdict
-    found = Settled(own)
+    found = Settled(own, draws=draws)
     if evaluation.result is not None:
         if own in (Verdict.NOT_REPRODUCED, Verdict.UNDER_ASSUMPTION, Verdict.UNDECIDABLE):
-            found = _over_choices(evaluation, table)
-        found = Settled(
-            found.verdict,
-            found.witnesses,
-            robustness(registry, evaluation, found.verdict, table),
-            found.search,
-        )
+            found = replace(_over_choices(evaluation, table), draws=draws)
+        found = replace(found, robustness=robustness(registry, evaluation, found.verdict, table))
     if own is Verdict.REGENERATED and item.statements:
         verdicts = {name: verdict_of(name) for name in item.statements}
         for grave in _PRECEDENCE:
@@ -86,17 +86,18 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
     return found
 
 
-def stored(registry: Registry, item_id: str) -> pd.DataFrame | None:
-    """The stored draws of an item; None if there are none, or none of the code as it is."""
+def stored(registry: Registry, item_id: str) -> tuple[str, pd.DataFrame | None]:
+    """Status and table of the stored draws of an item; no table if they are not of this code."""
     study = study_of(registry, item_id)
-    try:
-        return study.load() if study else None
-    except (LedgerError, OSError):
-        return None
-    except Exception as error:  # a table or its record that cannot be read
-        if type(error).__name__ in ("DataFileError", "ArrowInvalid"):
-            return None
-        raise
+    if study is None:
+        return "none", None
+    opened(study.meta_path)
+    opened(study.table_path)
+    status = study.status()
+    if status != "up to date":
+        return status, None
+    table = study.load()
+    return (status, table) if (table["kind"] == "draw").any() else ("none", table)
 
 
 def _over_choices(evaluation: Evaluation, table: pd.DataFrame | None) -> Settled:
@@ -108,21 +109,27 @@ def _over_choices(evaluation: Evaluation, table: pd.DataFrame | None) -> Settled
         "judged": judged(evaluation),
     }
     given = [dict(entry) for entry in result.witnesses]
+    if own is Verdict.UNDECIDABLE:
+        return Settled(own, given)
     tried = [] if table is None else _tried(table)
     met = [entry for entry in tried if entry.pop("met")]
     missed = [entry for entry in tried if entry not in met]
-    if own is Verdict.UNDECIDABLE:
-        return Settled(own, given)
+    met = [entry for entry in given if entry["verdict"] == "holds"] + met
+    missed = [entry for entry in given if entry["verdict"] == "fails"] + missed
     if evaluation.item.scope == "general":
         other = met if own is Verdict.NOT_REPRODUCED else missed
         if other:
-            return Settled(Verdict.UNDECIDABLE, [nominal, other[0], *given])
+            return Settled(Verdict.UNDECIDABLE, _distinct([nominal, other[0], *given]))
         return Settled(own, [nominal, *given], search=_search(evaluation, table))
     if own is Verdict.UNDER_ASSUMPTION:
         return Settled(own, [nominal, *given])
     if met:
-        return Settled(Verdict.UNDER_ASSUMPTION, [met[0], *given])
+        return Settled(Verdict.UNDER_ASSUMPTION, _distinct([met[0], *given]))
     return Settled(own, given, search=_search(evaluation, table))
+
+
+def _distinct(witnesses: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [entry for k, entry in enumerate(witnesses) if entry not in witnesses[:k]]
 
 
 def _tried(table: pd.DataFrame) -> list[dict[str, Any]]:
@@ -199,6 +206,26 @@ def robustness(
             }
         )
     )
+
+
+def robustness_of_draws(registry: Registry, item_id: str, samples: int) -> dict[str, Any] | None:
+    """Robustness from so many draws, made now and not stored; None without assumptions.
+
+    Raises
+    ------
+    InputError
+        ``samples`` is not positive.
+    """
+    import pandas as pd
+
+    from .evaluation import evaluate
+
+    study = study_of(registry, item_id, samples)
+    if study is None:
+        return None
+    rows = [{**cell, **study.cell(k, cell)} for k, cell in enumerate(study.cells())]
+    evaluation = evaluate(registry, item_id)
+    return robustness(registry, evaluation, evaluation.verdict, pd.DataFrame(rows))
 
 
 def _smallest_flip(table: pd.DataFrame, entries: Mapping[str, Any]) -> dict[str, Any] | None:

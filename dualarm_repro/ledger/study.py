@@ -22,6 +22,7 @@ from ..datafiles import data_path, opened
 from ..errors import DataFileError, InputError, LedgerError
 from ..tracking import recording
 from .closure import closure, hash_file, hash_inputs
+from .comparison import Comparison
 from .drift import differences
 from .files import to_json, write, write_text
 from .streams import stream
@@ -57,6 +58,11 @@ class Study:
         Columns that depend on the machine and are not compared (times).
     nested
         Columns that hold JSON texts, compared by what they mean.
+    compared
+        Columns, or what is in nested ones, that are compared otherwise than by digits.
+    knife_edge
+        Column that says of a cell that next to nothing decides its outcome: a spot check leaves it
+        out, since another processor may decide otherwise.
     peers
         Packages of others that some columns are computed with, with the prefix of those columns.
     also
@@ -71,6 +77,8 @@ class Study:
     settings: Mapping[str, Any] = field(default_factory=dict)
     measured: tuple[str, ...] = ()
     nested: tuple[str, ...] = ()
+    compared: tuple[Comparison, ...] = ()
+    knife_edge: str | None = None
     peers: Mapping[str, str] = field(default_factory=dict)
     also: tuple[str, ...] = ()
     registry: Registry | None = field(default=None, repr=False, compare=False)
@@ -220,14 +228,24 @@ class Study:
             raise LedgerError(f"{self.name}: {status}; run `dualarm study {self.name}`")
         return pd.read_parquet(opened(self.table_path))
 
-    def spot_check(self, count: int, seed: int) -> list[str]:
-        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store."""
+    def spot_check(self, count: int, seed: int, kind: str | None = None) -> list[str]:
+        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store.
+
+        Parameters
+        ----------
+        kind
+            Draw among the cells of this ``kind`` only.
+        """
         if count < 1:
             raise InputError("spot check", "count", count, "a positive number")
         table, cells = self.load(), self.cells()
-        drawn = np.random.default_rng(seed).choice(
-            len(cells), min(count, len(cells)), replace=False
-        )
+        edge = table[self.knife_edge] if self.knife_edge else [False] * len(cells)
+        among = [
+            k
+            for k, cell in enumerate(cells)
+            if kind in (None, cell.get("kind")) and not (edge[k] is True or edge[k] == 1)
+        ]
+        drawn = np.random.default_rng(seed).choice(among, min(count, len(among)), replace=False)
         found = []
         for index in sorted(int(k) for k in drawn):
             with recording() as inputs:
@@ -240,7 +258,8 @@ class Study:
             for key in sorted(compared - set(self.measured)):
                 if key.startswith(absent or ("\0",)):
                     continue
-                lines = differences({key: stored.get(key)}, {key: made.get(key)})
+                both = ({"obtained": {key: row.get(key)}} for row in (stored, made))
+                lines = differences(*both, self.compared)
                 found += [f"{self.name} cell {index}: {line}" for line in lines]
         return found
 

@@ -15,6 +15,7 @@ DISTRIBUTIONS = {
     "cma": ("cma",),
     "cvxpy": ("cvxpy", "clarabel"),
     "example_robot_data": ("example-robot-data-loaders",),
+    "mpl_toolkits": ("matplotlib",),
     "ompl": ("ompl",),
     "pinocchio": ("pin",),
     "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp", "quadprog"),

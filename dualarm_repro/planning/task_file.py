@@ -174,6 +174,11 @@ def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet:
     )
 
 
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a task file, for editors and other tools."""
+    return TaskFile.model_json_schema()
+
+
 def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
     placed = next((placed for placed in scene.arms if placed.name == name), None)
     if placed is None:

@@ -1,10 +1,12 @@
-"""Verdict badges: text first, colour second."""
+"""Verdict badges: text first, colour second, and the share of choices that meet print."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from html import escape
+from typing import Any
 
-from ..ledger import MEANING, Verdict
+from ..ledger.verdict import MEANING, Verdict
 
 #: Sign shown before the word, so that the badge can be told without colour.
 SIGN = {
@@ -12,6 +14,7 @@ SIGN = {
     Verdict.UNDER_ASSUMPTION: "✓*",
     Verdict.INCONSISTENT: "≠",
     Verdict.NOT_REPRODUCED: "✗",
+    Verdict.REGENERATED: "↻",
     Verdict.UNDECIDABLE: "?",
     Verdict.NOT_ATTEMPTED: "…",
     Verdict.ADOPTED: "=",
@@ -19,10 +22,35 @@ SIGN = {
 }
 
 
-def badge(verdict: str) -> str:
-    """HTML badge of a verdict with its meaning as a tooltip."""
+def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> str:
+    """HTML badge of a verdict, its meaning as a tooltip.
+
+    Parameters
+    ----------
+    robustness
+        Of the record; a verdict that is only possible shows its share of the plausible choices.
+    """
     known = Verdict(verdict)
+    share, note = "", ""
+    if robustness and known is Verdict.UNDER_ASSUMPTION:
+        share = f", {percent(robustness['meets_print']['share'])}"
+        low, high = robustness["meets_print"]["interval"]
+        note = f" Print is met in {interval(low, high)} of the plausible choices."
     return (
-        f'<span class="verdict verdict-{known}" title="{escape(MEANING[known])}">'
-        f"{SIGN[known]} {known}</span>"
+        f'<span class="verdict verdict-{known}" title="{escape(MEANING[known] + note)}">'
+        f"{SIGN[known]} {known}{share}</span>"
     )
+
+
+def percent(share: float) -> str:
+    """A share as a percentage that says 0 or 100 only where it is exactly that."""
+    if 0.0 < share < 0.01:
+        return "&lt; 1 %"
+    if 0.99 < share < 1.0:
+        return "&gt; 99 %"
+    return f"{100 * share:.0f} %"
+
+
+def interval(low: float, high: float) -> str:
+    """A 95 % interval of a share."""
+    return f"{100 * low:.0f} to {100 * high:.0f} %"

@@ -2,45 +2,66 @@
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from html import escape
 from io import BytesIO
 from typing import Any
 
 from ..ledger.verdict import MEANING
-from .badge import badge
+from .badge import badge, interval, percent
+from .firmness import firmness_svg
 from .style import BLACK, house_style
+from .wording import search_lines, short
 
-_DIGITS = 6
+#: A figure whose drawing would be larger than this is shown as pixels.
+_LARGEST_SVG = 250_000
 
 
 def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> str:
-    """A figure as an inline PNG with alternative text and a caption; the figure is closed."""
+    """A figure as an inline image with alternative text and a caption; the figure is closed.
+
+    A drawing stays sharp at any size; one of very many strokes is shown as pixels.
+    """
+    import matplotlib as mpl
     import matplotlib.pyplot as plt
 
-    buffer = BytesIO()
-    # Labels of 3-D axes stick out of the space that the layout keeps.
-    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches="tight")
+    with mpl.rc_context({"svg.hashsalt": "dualarm_repro"}):
+        # Labels of 3-D axes stick out of the space that the layout keeps.
+        data, kind = _saved(figure, "svg", metadata={"Date": None}), "svg+xml"
+        if len(data) > _LARGEST_SVG:
+            data, kind = _saved(figure, "png", dpi=dpi), "png"
     plt.close(figure)
-    data = b64encode(buffer.getvalue()).decode()
     return (
         f'<figure class="ledger-figure"><img alt="{escape(alt)}" '
-        f'src="data:image/png;base64,{data}"><figcaption>{escape(caption)}</figcaption></figure>'
+        f'src="data:image/{kind};base64,{b64encode(data).decode()}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
+
+
+def _saved(figure: Any, form: str, **options: Any) -> bytes:
+    buffer = BytesIO()
+    figure.savefig(buffer, format=form, bbox_inches="tight", **options)
+    return buffer.getvalue()
 
 
 def head_html(made: dict[str, Any]) -> str:
     """Id, verdict, title and place of a record on one line."""
     title = f"{made['title']} ({made['kind']}, {made['place']})"
     return (
-        f'<p class="ledger-head"><code>{made["id"]}</code> {badge(made["verdict"])} '
+        f'<p class="ledger-head"><code>{made["id"]}</code> '
+        f"{badge(made['verdict'], made['robustness'])} "
         f"<span>{escape(title)}</span></p>"
     )
 
 
-def card_html(made: dict[str, Any]) -> str:
-    """What a verdict rests on: checks, assumptions, errata, missing data, robustness."""
+def card_html(made: dict[str, Any], root: str = "") -> str:
+    """What a verdict rests on: checks, witnesses, assumptions, errata, missing data, robustness.
+
+    Parameters
+    ----------
+    root
+        Way from the page up to the top of the book, e.g. ``"../"``.
+    """
     parts = []
     if made["pending"]:
         parts.append(f"<p>Not attempted: {escape(made['pending'])}</p>")
@@ -48,16 +69,57 @@ def card_html(made: dict[str, Any]) -> str:
         parts.append(f"<p>Changed input: {escape(made['change'])}</p>")
     if made["checks"]:
         parts.append(_checks(made["checks"]))
+    if made["decided_by"]:
+        parts.append(
+            "<p>The source holds no original; the verdict is that of the statement of the text "
+            f"<code>{made['decided_by']}</code>.</p>"
+        )
     for name, value in (made["measured"] or {}).items():
-        parts.append(f"<p>Measured here: {escape(name)} = {short(value)}</p>")
+        parts.append(f"<p>Measured here: {escape(name)} = {escape(short(value))}</p>")
+    if made["robustness"]:
+        parts.append(
+            f"<p>{robustness_text(made['robustness'])}</p>{firmness_svg(made['robustness'])}"
+        )
+    thresholds = [
+        f"<b>{escape(name)}</b> = {entry['value']:g}: {escape(entry['reason'])}"
+        for name, entry in made["thresholds"].items()
+    ]
+    sought = [escape(line) for line in search_lines(made)]
     parts += [
+        _section("Witnesses", [_witness(entry) for entry in made["witnesses"]]),
+        _section("Search for a witness", sought),
+        _section("Thresholds", thresholds),
         _section("Assumptions", [_assumption(entry) for entry in made["assumptions"]]),
+        _section("Context", [_assumption(entry) for entry in made["context"]]),
         _section("Errata", [erratum_html(entry) for entry in made["errata"]]),
         _section("Not printed", [escape(datum) for datum in made["missing"]]),
-        _section("Robustness", [robustness_text(made["robustness"])] if made["robustness"] else []),
         _section("Note", [escape(made["notes"])] if made["notes"] else []),
+        _code(made["code"], root),
     ]
     return "".join(parts)
+
+
+def _witness(entry: dict[str, Any]) -> str:
+    values = short(entry["values"]) if entry["values"] else "the values as declared"
+    return f"<b>{escape(entry['verdict'])}</b> ({escape(entry['choice'])}): {escape(values)}"
+
+
+def _code(code: dict[str, Any] | None, root: str) -> str:
+    """Where the checker and its figure are written, linked to the source page."""
+    if code is None:
+        return ""
+    places = {"checker": code} | ({"figure": code["figure"]} if code["figure"] else {})
+    links = ", ".join(f"{name} {_source_link(entry, root)}" for name, entry in places.items())
+    return f'<p class="ledger-code">Code: {links}</p>'
+
+
+def _source_link(place: dict[str, Any], root: str) -> str:
+    name = escape(f"{place['file']}:{place['line']} {place['function'].partition('.<locals>')[0]}")
+    if place["line"] is None or not place["file"].startswith("dualarm_repro/"):
+        return f"<code>{name}</code>"
+    page = place["file"].removesuffix(".py").removesuffix("/__init__")
+    anchor = place["function"].partition(".<locals>")[0]
+    return f'<a href="{root}_modules/{page}.html#{anchor}"><code>{name}</code></a>'
 
 
 def card_figure(made: dict[str, Any]) -> Any:
@@ -65,12 +127,7 @@ def card_figure(made: dict[str, Any]) -> Any:
     import matplotlib.pyplot as plt
 
     rows = [
-        [
-            check["label"],
-            check["expected"],
-            short(check["obtained"]),
-            "yes" if check["holds"] else "no",
-        ]
+        [check["label"], check["expected"], short(check["obtained"]), check["outcome"]]
         for check in made["checks"]
     ] or [[made["pending"] or "", "", "", ""]]
     with house_style():
@@ -78,7 +135,7 @@ def card_figure(made: dict[str, Any]) -> Any:
         ax.axis("off")
         ax.set_title(f"{made['id']}: {made['verdict']}", color=BLACK, loc="left")
         cells = [[_cut(cell) for cell in row] for row in rows]
-        header = ["statement", "expected", "obtained", "holds"]
+        header = ["statement", "expected", "obtained", "outcome"]
         table = ax.table(cells, colLabels=header, loc="upper center", cellLoc="left")
         table.auto_set_font_size(False)
         table.set_fontsize(8)
@@ -86,32 +143,20 @@ def card_figure(made: dict[str, Any]) -> Any:
     return figure
 
 
-def short(value: Any) -> str:
-    """A value on one line, floats to six significant digits."""
-    if isinstance(value, float):
-        return f"{value:.{_DIGITS}g}"
-    if isinstance(value, list | tuple):
-        return "(" + ", ".join(short(part) for part in value) + ")"
-    if isinstance(value, dict):
-        return "; ".join(f"{key}: {short(part)}" for key, part in value.items())
-    if value is None:
-        return "-"
-    return value if isinstance(value, str) else json.dumps(value)
-
-
 def robustness_text(found: dict[str, Any]) -> str:
-    """Robustness of a verdict in one sentence."""
-    low, high = found["interval"]
+    """Robustness of a verdict in one sentence or two."""
+    met, low, high = found["meets_print"]["share"], *found["meets_print"]["interval"]
     text = (
-        f"The verdict holds in {found['holds']:.1%} of {found['samples']} draws of the assumptions "
-        f"(95 % interval {low:.1%} to {high:.1%}). "
+        f"Print is met in {percent(met)} of {found['samples']} draws of the assumptions "
+        f"(95 % interval {interval(low, high)}). "
     )
     flip = found["flip"]
     if flip is None:
-        return text + "No single change within the plausible values flips it."
+        return text + "No single change within the plausible values flips the outcome."
     return text + (
-        f"The smallest single change that flips it: {escape(flip['assumption'])} from "
-        f"{short(flip['nominal'])} to {short(flip['value'])}, giving {escape(flip['verdict'])}."
+        f"The smallest single change that flips the outcome: {escape(flip['assumption'])} from "
+        f"{escape(short(flip['nominal']))} to {escape(short(flip['value']))}, giving "
+        f"{escape(flip['verdict'])}."
     )
 
 
@@ -119,10 +164,10 @@ def _checks(checks: list[dict[str, Any]]) -> str:
     rows = "".join(
         f"<tr><td>{escape(check['label'])}</td><td>{escape(check['expected'])}</td>"
         f"<td>{escape(short(check['obtained']))}</td>"
-        f"<td>{'yes' if check['holds'] else 'no'}</td></tr>"
+        f"<td>{check['outcome']}</td></tr>"
         for check in checks
     )
-    head = "<tr><th>Statement</th><th>Expected</th><th>Obtained</th><th>Holds</th></tr>"
+    head = "<tr><th>Statement</th><th>Expected</th><th>Obtained</th><th>Outcome</th></tr>"
     return f'<div class="ledger-scroll"><table class="ledger-checks">{head}{rows}</table></div>'
 
 

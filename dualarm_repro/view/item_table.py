@@ -20,21 +20,21 @@ def item_table(registry: Registry, item_ids: Iterable[str], root: str = "") -> s
     root
         Way from the page with the table up to the top of the book, e.g. ``"../"``.
     """
-    rows = "".join(_row(registry, record(registry, item_id), root) for item_id in item_ids)
+    rows = "".join(_row(record(registry, item_id), root) for item_id in item_ids)
     return (
         '<div class="ledger-scroll"><table class="ledger-items">'
         f"<thead>{_HEAD}</thead><tbody>{rows}</tbody></table></div>"
     )
 
 
-def _row(registry: Registry, made: dict[str, Any], root: str) -> str:
-    item_id, checker = made["id"], registry.checkers.get(made["id"])
+def _row(made: dict[str, Any], root: str) -> str:
+    item_id = made["id"]
     code = f"<code>{item_id}</code>"
-    name = f'<a href="{root}{checker.page}.html#{item_id}">{code}</a>' if checker else code
+    name = f'<a href="{root}{made["url"]}">{code}</a>' if made["url"] else code
     why = made["pending"] or made["caption"] or ""
     return (
         f'<tr data-paper="{made["paper"]}" data-kind="{made["kind"]}" '
         f'data-verdict="{made["verdict"]}"><td>{name}</td><td>{made["kind"]}</td>'
-        f"<td>{badge(made['verdict'])}</td><td><b>{escape(made['title'])}</b> "
+        f"<td>{badge(made['verdict'], made['robustness'])}</td><td><b>{escape(made['title'])}</b> "
         f"({escape(made['place'])})<br>{escape(why)}</td></tr>"
     )

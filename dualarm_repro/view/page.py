@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from html import escape
+from typing import Any
 
-from ..ledger import Registry, evaluate, record
+from ..ledger import kept
 from ..ledger.cite import cite
-from ..ledger.files import to_json
-from ..ledger.record import compose
+from ..ledger.evaluation import Evaluation
+from ..ledger.record import located, make, record, roots
+from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
+
+_KIND = "pages"
 
 
 class Page:
@@ -23,28 +26,51 @@ class Page:
 
 
 def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:
-    """Evaluate an item now and lay out everything the ledger knows about it.
+    """Lay out everything the ledger knows about an item.
+
+    What was computed and drawn before is shown again while nothing it depends on has changed.
 
     Parameters
     ----------
     scene
         Whether to include the 3-D scene, if the item has one.
+
+    Raises
+    ------
+    UnknownNameError
+        No such item.
     """
-    evaluation = evaluate(registry, item_id)
-    result = evaluation.result
-    fresh = result is not None and result.measured
-    made = (
-        json.loads(to_json(compose(registry, evaluation))) if fresh else record(registry, item_id)
-    )
+    drawn = pictures(registry, item_id)
+    made = record(registry, item_id)
+    root = "../" * (made["page"] or "").count("/")
     parts = [head_html(made)]
-    if result is not None:
-        if result.figure:
-            parts.append(figure_html(result.figure(), result.alt, result.caption))
-        else:
-            parts.append(f"<p>{escape(result.caption)}</p>")
-        if result.scene and scene:
-            parts.append(result.scene().page_html())
-    parts.append(card_html(made))
+    if drawn["figure"]:
+        parts.append(drawn["figure"])
+    elif made["caption"]:
+        parts.append(f"<p>{escape(made['caption'])}</p>")
+    if drawn["scene"] and scene:
+        parts.append(drawn["scene"])
+    parts.append(card_html(made, root))
     bibtex = escape(cite(registry, item_id, "bibtex", made["verdict"]))
     parts.append(f"<details><summary>Cite</summary><pre>{bibtex}</pre></details>")
     return Page(f'<div class="ledger-item" id="{item_id}">{"".join(parts)}</div>')
+
+
+def pictures(registry: Registry, item_id: str) -> dict[str, str | None]:
+    """Figure and 3-D scene of an item as HTML, drawn now or kept from before."""
+    registry.look(item_id)
+    found = kept.read(registry, _KIND, item_id)
+    if found is None:
+        entry, evaluation = make(registry, item_id)
+        found = _draw(located(entry["record"]), evaluation)
+        modules = {*roots(registry, item_id), __name__}
+        kept.keep(registry, _KIND, item_id, found, modules, entry["inputs"], drawn=True)
+    return found
+
+
+def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, str | None]:
+    result = evaluation.result
+    if result is None:
+        return {"figure": None, "scene": None}
+    figure = figure_html(result.figure(), result.alt, result.caption) if result.figure else None
+    return {"figure": figure, "scene": result.scene().page_html() if result.scene else None}

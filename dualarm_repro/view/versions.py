@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from html import escape
 
-from ..ledger.fingerprint import fingerprint, versions
+from ..ledger.closure import closure_of_modules
+from ..sources import graph
 from .page import Page
 
 
 def versions_page() -> Page:
-    """Versions of Python and of the numeric libraries, and the hash of library and data."""
+    """Versions of Python and of every library that the code can reach, and the hash of the code."""
+    found = closure_of_modules(tuple(sorted(graph().files)), drawn=True)
     rows = "".join(
         f"<tr><td>{escape(name)}</td><td>{escape(number)}</td></tr>"
-        for name, number in versions().items()
+        for name, number in found.versions.items()
     )
     return Page(
-        f'<table class="ledger-versions"><tr><th>library</th><th>version</th></tr>{rows}</table>'
-        f"<p>Fingerprint of library, data and versions: <code>{fingerprint()}</code></p>"
+        '<details><summary>Versions</summary><table class="ledger-versions">'
+        f"<tr><th>library</th><th>version</th></tr>{rows}</table></details>"
+        f"<p>Hash of the code of the library: <code>{found.digest}</code></p>"
     )

@@ -51,7 +51,7 @@ def test_healthy_book_has_no_violation(html):
     assert check_book.misplaced_items(pages, {"toy.tab01": "toy/page"}) == []
     assert check_book.wrong_cards(pages, "toy/page", RECORD, ["obtained 2.784"]) == []
     assert check_book.wrong_counts(pages, "intro", COUNTS) == []
-    assert check_book.broken_links(pages) == []
+    assert check_book.broken_links(pages, html) == []
     assert check_book.images_without_alt(pages) == []
     assert check_book.not_executed(pages, "status", ["intro", "toy/page"]) == []
     assert check_book.failed_outputs(pages) == []
@@ -102,7 +102,17 @@ def test_counts_must_be_those_of_the_registry(html, old, new):
 @pytest.mark.parametrize("new", ["../intro.html#elsewhere", "intro.html#verdict-counts"])
 def test_link_of_an_output_must_lead_somewhere(html, new):
     pages = change(html, "toy/page.html", "../intro.html#verdict-counts", new)
-    assert check_book.broken_links(pages) == [f"toy/page: the link {new} leads nowhere"]
+    assert check_book.broken_links(pages, html) == [f"toy/page: the link {new} leads nowhere"]
+
+
+def test_link_of_an_output_may_lead_to_a_file(html):
+    pages = change(html, "toy/page.html", "../intro.html#verdict-counts", "../_static/all.zip")
+    assert check_book.broken_links(pages, html) == [
+        "toy/page: the link ../_static/all.zip leads nowhere"
+    ]
+    (html / "_static").mkdir(exist_ok=True)
+    (html / "_static/all.zip").write_bytes(b"")
+    assert check_book.broken_links(pages, html) == []
 
 
 @pytest.mark.parametrize("alt", ["", 'alt=""', 'alt="  "'])

@@ -221,5 +221,5 @@ def test_document_pages(registry, monkeypatch):
     table = document.items_page(registry, "xue").html
     assert '"../xue/kinematics.html#xue.tab01"' in table
     assert "&lt;b&gt;" in table
-    with pytest.raises(UnknownNameError, match="one of xue, qiu, patent, pan"):
+    with pytest.raises(UnknownNameError, match="one of " + ", ".join(registry.documents)):
         document.errata_page(registry, "nobody")

@@ -1,6 +1,7 @@
 """Pre-execution: which pages are notebooks, what is cached, and that every failure is named."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import prerun
 import pytest
@@ -36,13 +37,50 @@ def test_pages_in_reading_order(book):
     assert [page.stem for page in prerun.notebooks(book)] == ["intro", "good", "page"]
 
 
-def test_records_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
-    chosen = {i: registry.checkers[i] for i in ("xue.eq02", "xue.tab01")}
+def test_records_and_pictures_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
     broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
-    monkeypatch.setattr(registry, "checkers", {"xue.eq03": broken} | chosen)
+    monkeypatch.setitem(registry.checkers, "xue.eq03", broken)
     monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
-    prerun.warm_records()
-    assert {path.stem for path in tmp_path.rglob("*.json")} == set(chosen)
+    prerun.warm(["xue.eq02", "xue.eq03", "xue.tab01"])
+    for kind in ("records", "pages"):
+        assert {path.stem for path in (tmp_path / kind).iterdir()} == {"xue.eq02", "xue.tab01"}
+
+
+def test_the_key_of_a_page_follows_what_it_shows(tmp_path, monkeypatch):
+    from dualarm_repro.ledger import kept
+
+    page = tmp_path / "page.md"
+    shows = 'from dualarm_repro.papers import show\n\nshow("xue.eq02")'
+    page.write_text(NOTEBOOK.format(code=shows))
+    key = prerun.page_key(page)
+    page.write_text("Prose.\n" + NOTEBOOK.format(code=shows))
+    assert prerun.page_key(page) == key
+    page.write_text(NOTEBOOK.format(code=shows.replace("eq02", "eq03")))
+    assert prerun.page_key(page) != key
+    page.write_text(NOTEBOOK.format(code=shows))
+    read = kept.read
+    monkeypatch.setattr(
+        kept,
+        "read",
+        lambda registry, kind, name: (
+            {"figure": "another", "scene": None} if kind == "pages" else read(registry, kind, name)
+        ),
+    )
+    assert prerun.page_key(page) != key
+
+
+def test_only_pages_whose_key_changed_are_executed_again(book, tmp_path, monkeypatch):
+    prerun.isolate_kernels(tmp_path / "ipython")
+    (book / "bad" / "page.md").write_text(NOTEBOOK.format(code="print(1)"))
+    keys = {"intro": "a", "good": "a", "page": "a"}
+    monkeypatch.setattr(prerun, "page_key", lambda page: keys[page.stem])
+    assert prerun.prerun(book, tmp_path / "cache", timeout=60) == {}
+    cache = get_cache(tmp_path / "cache")
+    before = {Path(r.uri).stem: r.created for r in cache.list_cache_records()}
+    keys["good"] = "b"
+    assert prerun.prerun(book, tmp_path / "cache", timeout=60) == {}
+    after = {Path(r.uri).stem: r.created for r in cache.list_cache_records()}
+    assert {name for name in after if after[name] != before[name]} == {"good"}
 
 
 def test_all_failures_are_named_and_the_rest_is_cached(book, tmp_path, monkeypatch):

@@ -3,13 +3,14 @@
 import json
 import subprocess
 import sys
-from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from dualarm_repro import cli
 from dualarm_repro.papers import load
 
+ROOT = Path(cli.__file__).parents[1]
 XUE_PART_1 = [
     *(f"xue.{name}" for name in ("fig01", "fig02", "fig03", "fig05", "fig06", "tab01")),
     *(f"xue.eq{k:02d}" for k in range(1, 9)),
@@ -40,11 +41,20 @@ def records():
 
 
 def test_list_has_every_item(records):
-    assert len(records) == len({made["id"] for made in records}) == 197
-    contract = {"id", "paper", "kind", "title", "printed", "obtained", "verdict"}
-    assert all(
-        contract | {"assumptions", "errata", "robustness"} <= made.keys() for made in records
-    )
+    assert [made["id"] for made in records] == list(load().items)
+    contract = {"id", "paper", "kind", "title", "printed", "obtained", "verdict", "assumptions"}
+    contract |= {"errata", "witnesses", "robustness", "code", "page", "url"}
+    assert all(contract <= made.keys() for made in records)
+
+
+def test_code_leads_to_the_lines_that_decide(records):
+    for made in records:
+        for place in (made["code"], made["code"]["figure"]):
+            if place is None:
+                continue
+            lines = (ROOT / place["file"]).read_text(encoding="utf-8").splitlines()
+            name = place["function"].rpartition(".")[2]
+            assert lines[place["line"] - 1].lstrip().startswith(f"def {name.strip('<>')}"), place
 
 
 def test_xue_part_1_is_attempted(records):
@@ -82,7 +92,7 @@ def test_run_writes_files(dualarm, tmp_path):
     assert 'src="http' not in scene
 
 
-def test_verify_and_sensitivity(dualarm, monkeypatch):
+def test_verify_and_sensitivity(dualarm):
     code, out, _ = dualarm("verify", "xue.eq01", "xue.tab01", "xue.fig05", "--json")
     report = json.loads(out)
     assert (code, report["drifted"]) == (0, [])
@@ -90,12 +100,22 @@ def test_verify_and_sensitivity(dualarm, monkeypatch):
     code, out, _ = dualarm("sensitivity", "xue.claim_overlap", "--samples", 8, "--json")
     assert code == 0
     assert json.loads(out)["robustness"]["samples"] == 8
-    checkers = load().checkers
-    monkeypatch.setitem(checkers, "qiu.eq05", replace(checkers["qiu.eq05"], samples=0))
-    code, out, _ = dualarm("sensitivity", "qiu.eq05")  # as where the book draws none
+    stored = json.loads(dualarm("show", "xue.claim_overlap", "--json")[1])["robustness"]
+    again = json.loads(dualarm("sensitivity", "xue.claim_overlap", "--json")[1])
+    assert again["robustness"] == stored
+    assert "no assumption with another plausible value" in dualarm("sensitivity", "xue.eq01")[1]
+
+
+def test_verify_is_the_same_for_two_workers(dualarm):
+    one = dualarm("verify", "xue.eq01", "xue.tab01", "--json")
+    assert dualarm("verify", "xue.eq01", "xue.tab01", "--json", "--jobs", 2) == one
+
+
+def test_study_lists_what_is_stored(dualarm):
+    code, out, _ = dualarm("study")
     assert code == 0
-    assert "of 16 draws" in out
-    assert "no sampled assumption" in dualarm("sensitivity", "xue.eq01")[1]
+    assert out.count("\n") > len(load().studies)
+    assert "robustness/xue.claim_overlap: " in out
 
 
 def test_cite(dualarm):
@@ -105,6 +125,16 @@ def test_cite(dualarm):
     code, out, _ = dualarm("cite", "xue.tab01", "--format", "csl-json")
     assert code == 0
     assert len(json.loads(out)) == 2
+
+
+def test_export_writes_the_ledger(dualarm, tmp_path, records):
+    code, out, _ = dualarm("export", "--out", tmp_path / "all")
+    assert code == 0
+    assert "ledger.zip" in out
+    written = json.loads((tmp_path / "all/ledger.json").read_text())
+    assert [made["id"] for made in written] == [made["id"] for made in records]
+    command = [sys.executable, "-m", "claims", "verify", "repro.yaml"]
+    subprocess.run(command, cwd=tmp_path / "all", check=True, capture_output=True)
 
 
 @pytest.mark.parametrize(
@@ -146,7 +176,8 @@ def test_unwritable_folder_leaves_nothing(dualarm, tmp_path):
 def test_help_lists_the_commands(dualarm):
     code, out, _ = dualarm("--help")
     assert code == 0
-    assert all(name in out for name in ("list", "show", "run", "verify", "sensitivity", "cite"))
+    names = ("list", "show", "run", "verify", "sensitivity", "cite", "export")
+    assert all(name in out for name in names)
     code, out, _ = dualarm()
     assert code == 2
     assert "Usage" in out

@@ -97,6 +97,12 @@ def test_joint_bounds_brake_before_the_limit_and_drive_back_beyond(system, q):
         buffers, *_ = filled(system, beyond)
         assert buffers.upper[i] == pytest.approx(-5.0 * 0.07)
         assert (buffers.lower <= buffers.upper).all()
+        near[i], beyond[i] = arrays.lower[i] + 0.06, arrays.lower[i] - 0.02
+        buffers, *_ = filled(system, near)
+        assert buffers.lower[i] == pytest.approx(-5.0 * 0.01)
+        buffers, *_ = filled(system, beyond)
+        assert buffers.lower[i] == pytest.approx(5.0 * 0.07)
+        assert (buffers.lower <= buffers.upper).all()
 
 
 @pytest.mark.parametrize(

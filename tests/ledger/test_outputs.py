@@ -1,12 +1,11 @@
-"""Citations, exports and reference results."""
+"""Exports of one item and reference results."""
 
 import json
 
 import pytest
 
-from dualarm_repro.errors import DataFileError, OutputError, UnknownNameError
+from dualarm_repro.errors import DataFileError, OutputError
 from dualarm_repro.ledger import evaluate, record, reference
-from dualarm_repro.ledger.cite import cite
 from dualarm_repro.ledger.export import export
 from dualarm_repro.ledger.files import to_json, write
 from dualarm_repro.view.card import card_figure
@@ -18,18 +17,6 @@ from .toy import toy_registry
 def toy(tmp_path, monkeypatch):
     monkeypatch.setattr(reference, "data_path", lambda *parts: tmp_path.joinpath("data", *parts))
     return toy_registry(tmp_path)
-
-
-def test_bibtex_and_csl(toy):
-    text = cite(toy, "toy.claim_area", "bibtex", "reproduced")
-    assert text.count("@misc{") == 2
-    assert "Verdict: reproduced" in text
-    assert "doi" not in text.lower()
-    result, document = cite(toy, "toy.claim_area", "csl-json", "reproduced")
-    assert result["type"] == "software"
-    assert document["author"] == [{"family": "Doe", "given": "Jane"}]
-    with pytest.raises(UnknownNameError, match="bibtex, csl-json"):
-        cite(toy, "toy.claim_area", "ris", "reproduced")
 
 
 def test_export_writes_the_four_files(toy, tmp_path):

@@ -21,6 +21,12 @@ from .toy import YAML
         ("kind: figure", "kind: picture", "items.fig01.kind"),
         ("assumptions: [width, shape]", "assumptions: [widht]", "no assumption named 'widht'"),
         ("affects: [toy.claim_area]", "affects: [toy.x]", "no item named 'toy.x'"),
+        ("needs: count}", "needs: count, context: [widht]}", "no assumption named 'widht'"),
+        ("needs: area\n", "needs: area\n    context: [width]\n", "are assumptions already"),
+        ("needs: count}", "needs: count, statements: [toy.x]}", "no item named 'toy.x'"),
+        ("needs: count}", "needs: count, scope: always}", "items.claim_count.scope"),
+        ("needs: count}", "needs: count, thresholds: {a: {value: 1}}}", "thresholds.a.reason"),
+        ("needs: count}", "needs: count, search: {starts: 0}}", "search.starts"),
         ("range: [0.0, 4.0]", "range: [2.0, 4.0]", "assumptions.width"),
         ("range: [0.0, 4.0]", "range: [0.0, .nan]", "assumptions.width"),
         ("choices: [round, square]", "choices: [square]", "assumptions.shape"),
@@ -46,7 +52,7 @@ def test_missing_file_and_wrong_name(tmp_path):
         load_paper(tmp_path / "none.yaml")
     (tmp_path / "other.yaml").write_text(YAML)
     with pytest.raises(LedgerError, match=r"other\.yaml: document\.id is 'toy'"):
-        Registry().load(tmp_path)
+        _ = Registry(tmp_path).papers
 
 
 def test_json_schema_accepts_the_paper_files(registry):

@@ -2,10 +2,12 @@
 
 import json
 
+import pandas as pd
 import pytest
 
 from dualarm_repro.errors import DataFileError, InputError, LedgerError
-from dualarm_repro.ledger import Registry, Study, study
+from dualarm_repro.ledger import Registry, Study, closure, study
+from dualarm_repro.tracking import note
 
 CELLS = 40
 
@@ -15,33 +17,66 @@ def _cells():
 
 
 def _compute(settings, rng):
-    return {"value": settings["k"] * settings["weights"][1] + rng.random(), "seconds": rng.random()}
+    note("robots/toy.yaml")
+    return {
+        "value": settings["k"] * settings["weights"][1] + rng.random(),
+        "seconds": rng.random(),
+        "nested": json.dumps({"a": 0.1 * settings["k"]}),
+    }
 
 
 @pytest.fixture
-def toy(tmp_path, monkeypatch):
-    monkeypatch.setattr(study, "data_path", lambda *parts: tmp_path.joinpath("data", *parts))
+def data(tmp_path, monkeypatch):
+    folder = tmp_path / "data"
+    (folder / "robots").mkdir(parents=True)
+    (folder / "robots" / "toy.yaml").write_text("a: 1\n")
+    for module in (study, closure):
+        monkeypatch.setattr(module, "data_path", lambda *parts: folder.joinpath(*parts))
+    return folder
 
+
+@pytest.fixture
+def toy(data):
     def make(**changes):
         options = {
             "name": "toy_sweep",
             "title": "a sweep",
             "cells": _cells,
             "compute": _compute,
-            "sources": ("ledger/study.py",),
             "seed": 7,
             "measured": ("seconds",),
+            "nested": ("nested",),
+            "registry": Registry(data),
         }
         return Study(**{**options, **changes})
 
     return make
 
 
-def test_same_for_any_number_of_workers(toy, tmp_path):
+def test_same_bytes_for_any_number_of_workers(toy, tmp_path):
     one = toy().run(jobs=1, scratch=tmp_path)
+    stored = toy().table_path.read_bytes(), toy().meta_path.read_bytes()
     assert toy().run(jobs=2, scratch=tmp_path).equals(one)
+    assert (toy().table_path.read_bytes(), toy().meta_path.read_bytes()) == stored
     assert toy().load().equals(one)
     assert toy().meta()["cells"] == len(one) == CELLS
+
+
+def test_same_bytes_on_a_dask_cluster(toy, tmp_path):
+    from dask.distributed import LocalCluster
+
+    toy().run(jobs=1, scratch=tmp_path)
+    stored = toy().table_path.read_bytes()
+    with LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as c:
+        toy().run(scratch=tmp_path, scheduler=c.scheduler_address)
+    assert toy().table_path.read_bytes() == stored
+
+
+def test_no_scheduler_there(toy, tmp_path):
+    with pytest.raises(InputError, match="--scheduler"):
+        toy().run(scratch=tmp_path, scheduler="nonsense")
 
 
 def test_resumes(toy, tmp_path):
@@ -61,31 +96,90 @@ def test_resumes(toy, tmp_path):
     assert table.equals(toy().run(scratch=tmp_path))
 
 
-def test_stale_and_missing(toy, tmp_path):
+def test_a_damaged_chunk_is_computed_again(toy, tmp_path):
+    expected = toy().run(scratch=tmp_path)
+    folder = tmp_path / f"toy_sweep-{toy().code['digest'][:16]}"
+    for text in ("", "[]", "{"):
+        (folder / "000000.json").write_text(text)
+        assert toy().run(scratch=tmp_path).equals(expected)
+
+
+def test_stale_and_missing(toy, tmp_path, data):
+    assert toy().status() == "missing"
     with pytest.raises(DataFileError, match="dualarm study toy_sweep"):
         toy().load()
     toy().run(scratch=tmp_path)
-    for changed in ({"seed": 8}, {"settings": {"a": 1}}, {"sources": ("ledger/files.py",)}):
-        with pytest.raises(LedgerError, match="stale"):
+    assert toy().status() == "up to date"
+    assert "robots/toy.yaml" in toy().meta()["inputs"]
+    for changed in ({"seed": 8}, {"settings": {"a": 1}}, {"also": ("dualarm_repro.errors",)}):
+        with pytest.raises(LedgerError, match="stale: code, seed or settings changed"):
             toy(**changed).load()
-    with pytest.raises(LedgerError, match="nothing at ghost"):
-        _ = toy(sources=("ledger/ghost.py",)).source_hash
+    (data / "robots" / "toy.yaml").write_text("a: 2\n")
+    with pytest.raises(LedgerError, match=r"robots/toy\.yaml changed"):
+        toy().load()
+
+
+def test_a_falsified_or_truncated_table_is_found(toy, tmp_path):
+    table = toy().run(scratch=tmp_path)
+    good = toy().table_path.read_bytes()
+    table["value"] *= 1.5
+    table.to_parquet(toy().table_path, index=False)
+    with pytest.raises(LedgerError, match="the table is not the one that was computed"):
+        toy().load()
+    toy().table_path.write_bytes(good[:100])
+    with pytest.raises(LedgerError, match="the table is not the one"):
+        toy().load()
+    toy().table_path.unlink()
+    assert toy().status() == "missing"
+    with pytest.raises(LedgerError, match="missing"):
+        toy().load()
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", "null"])
+def test_a_damaged_record_of_the_study(toy, tmp_path, text):
+    toy().run(scratch=tmp_path)
+    toy().meta_path.write_text(text)
+    assert toy().status() == "stale: its record cannot be read"
+    with pytest.raises(DataFileError):
+        toy().load()
+
+
+def _forge(study):
+    """Another number in the table, with a hash that fits."""
+    table = pd.read_parquet(study.table_path)
+    table["value"] += 1e-3
+    table.to_parquet(study.table_path, index=False)
+    meta = json.loads(study.meta_path.read_text())
+    meta["table_sha256"] = closure.hash_file(study.table_path)
+    study.meta_path.write_text(json.dumps(meta))
 
 
 def test_spot_check_finds_a_forged_number(toy, tmp_path):
-    table = toy().run(scratch=tmp_path)
+    toy().run(scratch=tmp_path)
     assert toy().spot_check(10, seed=1) == []
-    table["value"] += 1e-3
-    table.to_parquet(toy().table_path)
+    _forge(toy())
     assert len(toy().spot_check(10, seed=1)) == 10
     with pytest.raises(InputError, match="count"):
         toy().spot_check(0, seed=1)
 
 
-def test_meta_is_json(toy, tmp_path):
+def test_spot_check_finds_an_input_that_is_not_recorded(toy, tmp_path):
     toy().run(scratch=tmp_path)
     meta = json.loads(toy().meta_path.read_text())
-    assert {"seed", "settings", "source_hash", "versions"} <= meta.keys()
+    meta["inputs"] = {}
+    toy().meta_path.write_text(json.dumps(meta))
+    (line,) = toy().spot_check(1, seed=1)
+    assert "opened robots/toy.yaml, which is not recorded" in line
+
+
+def test_columns_of_a_peer_that_is_missing(toy, tmp_path):
+    toy().run(scratch=tmp_path)
+    _forge(toy())
+    lacking = toy(peers={"no_such_package": "value"})
+    assert lacking.missing_peers() == ["no_such_package"]
+    assert lacking.spot_check(10, seed=1) == []
+    with pytest.raises(LedgerError, match="no_such_package not installed"):
+        lacking.run(scratch=tmp_path)
 
 
 def test_registered_once(toy):

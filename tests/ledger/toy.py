@@ -26,8 +26,7 @@ items:
 def toy_registry(folder, text=YAML):
     """Registry with the toy document and its checkers."""
     (folder / "toy.yaml").write_text(text)
-    registry = Registry()
-    registry.load(folder)
+    registry = Registry(folder)
 
     @registry.checks(
         "toy.claim_area",

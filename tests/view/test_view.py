@@ -11,9 +11,10 @@ from dualarm_repro.arms import load_arm
 from dualarm_repro.ledger import MEANING, Verdict
 from dualarm_repro.papers import show
 from dualarm_repro.view.badge import SIGN, badge
-from dualarm_repro.view.card import card_html, head_html, short
+from dualarm_repro.view.card import card_html, head_html
 from dualarm_repro.view.overview import counts_page, ledger_page, verdict_counts
 from dualarm_repro.view.scene3d import Scene3D
+from dualarm_repro.view.wording import short
 
 
 def test_every_verdict_has_meaning_sign_and_badge():
@@ -31,8 +32,10 @@ def test_card_escapes_text():
     made = {
         "id": "toy.x", "verdict": "reproduced", "title": "a < b", "kind": "claim", "place": "1",
         "pending": None, "change": None, "measured": None, "missing": ["<script>"], "notes": None,
-        "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True}],
-        "assumptions": [], "errata": [], "robustness": None,
+        "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True,
+                    "outcome": "holds"}],
+        "assumptions": [], "errata": [], "robustness": None, "context": [], "witnesses": [],
+        "search": None, "seek": None, "thresholds": {}, "decided_by": None, "code": None,
     }  # fmt: skip
     html = head_html(made) + card_html(made)
     assert "<script>" not in html
@@ -43,17 +46,17 @@ def test_card_escapes_text():
 def test_page_of_an_item():
     html = show("xue.fig02").html
     assert 'id="xue.fig02"' in html
-    assert re.search(r'<img alt="[^"]{30,}" src="data:image/png;base64,', html)
-    assert "verdict-undecidable" in html
+    assert re.search(r'<img alt="[^"]{30,}" src="data:image/svg\+xml;base64,', html)
+    assert "verdict-regenerated" in html
     assert "http" not in re.sub(r"base64,[^\"]*", "", html)
 
 
 def test_overview_counts_everything(registry):
     table = verdict_counts(registry)
-    assert table.loc["total", "total"] == 197
+    assert table.loc["total", "total"] == len(registry.items)
     assert (table.iloc[:-1].sum() == table.iloc[-1]).all()
     assert 'id="verdict-counts"' in counts_page(registry).html
-    assert ledger_page(registry).html.count("<tr data-paper=") == 197
+    assert ledger_page(registry).html.count("<tr data-paper=") == len(registry.items)
 
 
 def _commands(html):

@@ -81,15 +81,18 @@ def test_nothing_feasible():
     assert np.isnan(nowhere.position).all()
 
 
-def test_selection_prefers_the_better():
-    search = ga.Search(hill, *BOX.T, Settings(), np.random.default_rng(1))
+@pytest.mark.parametrize("seed", range(4))
+def test_parents_are_drawn_in_proportion_to_one_over_the_root_of_their_rank(seed):
+    search = ga.Search(hill, *BOX.T, Settings(), np.random.default_rng(seed))
     ga.initialise(search)
     ga.evaluate(search)
     ga.rank(search)
     ga.select(search)
     count = [np.sum((search.parents == row).all(axis=1)) for row in search.individuals]
-    assert count[0] > np.mean(count[25:])
     assert sum(count) == len(search.parents) == 2 * 38 + 9
+    share = np.arange(1.0, 51.0) ** -0.5
+    # equally spaced pointers: each count is the expected one, rounded down or up
+    assert np.abs(count - len(search.parents) * share / share.sum()).max() < 1.0
 
 
 @pytest.mark.parametrize(

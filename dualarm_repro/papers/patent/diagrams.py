@@ -1,58 +1,50 @@
-"""Figures 1 and 3 and the ten claims: diagrams and a table made from the implementation."""
+"""Figures 1 and 3 and the ten claims, judged by the order of calls in a traced run."""
 
 from __future__ import annotations
 
 from functools import partial
+from itertools import groupby
 
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from ...view.diagrams import block_diagram, flow_chart
-from .flow import STEPS, place
+from .flow import place, trace, traced_steps
 
 checks = partial(REGISTRY.checks, page="patent/problem")
-
-#: Claim to the steps of :data:`.flow.STEPS` it consists of.
-CLAIMS: dict[int, tuple[int, ...]] = {
-    1: (0, 1, 2, 3, 4, 5, 6),
-    2: (0,),
-    3: (1,),
-    4: (2,),
-    5: (3,),
-    6: (4,),
-    7: (5,),
-    8: (6,),
-    9: (0, 1, 2, 3, 4, 5, 6),
-    10: (0, 1, 2, 3, 4, 5, 6),
-}
 
 
 @checks(
     "patent.fig01",
     rules=[
-        Is(
-            key="parts",
-            to="parts",
-            label="the code falls into the two parts of the chart, in order",
-        ),
-        Is(key="steps", value=[2, 5], label="with the two and the five steps of the text"),
+        Is(key="parts", to="parts", label="a run of the code falls into the two parts, in order"),
+        Is(key="steps", to="steps", label="with the steps of the text, in the order of the text"),
     ],
 )
 def flow_chart_figure(assumed: Assumed) -> Result:
-    """Figure 1 from the functions that carry out its steps."""
-    parts = list(dict.fromkeys(step.part for step in STEPS))
-    counts = [sum(step.part == part for step in STEPS) for part in parts]
-    rows = [(step.part, step.text, place(step.code)) for step in STEPS]
+    """Figure 1 from a traced run: which step ends first, which next."""
+    steps = traced_steps()
+    groups = [
+        (part, [step.text for step in group])
+        for part, group in groupby(steps, key=lambda step: step.part)
+    ]
+    rows = [(step.part, step.text, place(step.code)) for step in steps]
+    counts = " and ".join(f"{len(texts)} of {part}" for part, texts in groups)
     return Result(
-        obtained={"parts": parts, "steps": counts},
+        obtained={
+            "parts": [part for part, _ in groups],
+            "steps": [texts for _, texts in groups],
+            "returns": len(trace()),
+        },
         table=pd.DataFrame(rows, columns=["part", "step", "code"]),
         caption=(
-            f"The method as it is run here: {counts[0]} steps that state the problem and "
-            f"{counts[1]} that solve it, each with the function behind it. The printed drawing is "
-            "not in the text edition; its steps are, and every one of them has its code."
+            f"The method as it runs here. Two ticks of the closed loop were traced, {len(trace())} "
+            f"returns of functions; in the order in which they first end, its steps are {counts}. "
+            "The printed drawing is not in the text edition; the steps are listed in the text, "
+            "and the order of the run is compared with that list."
         ),
-        alt="Flow chart with two columns of boxes: two steps that state the problem, five that "
-        "solve it.",
+        alt="Flow chart with a column of boxes for each part of the method, in the order of a "
+        "traced run.",
         figure=lambda: flow_chart(rows),
     )
 
@@ -60,54 +52,58 @@ def flow_chart_figure(assumed: Assumed) -> Result:
 @checks(
     "patent.fig03",
     rules=[
-        Is(key="steps_run", value=len(STEPS), label="steps of Fig. 1 that the program carries out"),
+        Is(key="not_run", value=0, label="steps of Fig. 1 that the program leaves out"),
         NoOriginal(key="drawing", label="the drawing"),
     ],
 )
 def device(assumed: Assumed) -> Result:
-    """Figure 3: a processor that runs a program kept in a memory."""
+    """Figure 3: a processor that runs a program kept in a memory, which carries out Figure 1."""
     numbers = REGISTRY.printed("patent.fig03")
-    runs = sum(callable(step.code) for step in STEPS)
+    asked = [text for part in REGISTRY.printed("patent.fig01")["steps"] for text in part]
+    run = [step.text for step in traced_steps()]
+    left_out = [text for text in asked if text not in run]
     return Result(
-        obtained={"steps_run": runs},
+        obtained={"not_run": len(left_out), "run": run},
         caption=(
             f"Processor {numbers['processor']} runs program {numbers['program']}, kept in memory "
-            f"{numbers['memory']}; the program is the {runs} steps of Fig. 1. Any computer is "
-            "such a device, and the drawing is not in the text edition, so there is nothing to "
-            "compare."
+            f"{numbers['memory']}; of the {len(asked)} steps that the text gives the program, a "
+            f"traced run leaves out {len(left_out)}. The drawing is not in the text edition, so "
+            "it is drawn anew."
         ),
         alt="Block diagram: a device that contains a processor and a memory, with the program in "
         "the memory.",
-        figure=lambda: block_diagram(numbers, [step.text for step in STEPS]),
+        figure=lambda: block_diagram(numbers, run),
     )
 
 
 @checks(
     "patent.claim_claims10",
     rules=[
-        Is(key="claims", value=10, label="claims with code behind them"),
-        Is(key="method", value=8, label="of them on the method"),
-        Is(key="uncovered", value=0, label="steps that no claim of the method leads to"),
+        Is(key="details", to="details", label="claims 2 to 8 detail the steps of a run in order"),
+        Is(key="method", to="method", label="claims on the method"),
+        Is(key="device", to="device", label="claim on the device"),
+        Is(key="medium", to="medium", label="claim on the medium"),
+        Is(key="claims", to="claims", label="number of claims"),
     ],
 )
 def ten_claims(assumed: Assumed) -> Result:
-    """Each claim with the functions that carry it out."""
-    covered = {step for claim in range(2, 9) for step in CLAIMS[claim]}
-    rows = [
-        (claim, "; ".join(place(STEPS[step].code) for step in steps))
-        for claim, steps in CLAIMS.items()
-    ]
-    method = sum(claim <= 8 for claim in CLAIMS)
+    """Claim 1 for the whole run, one claim for each traced step, two for device and medium."""
+    steps = traced_steps()
+    last = 1 + len(steps)
+    rows = [(1, "all steps"), *((k, place(s.code)) for k, s in enumerate(steps, start=2))]
+    rows += [(last + 1, "all steps"), (last + 2, "all steps")]
     return Result(
         obtained={
-            "claims": len(CLAIMS),
-            "method": method,
-            "uncovered": len(set(range(len(STEPS))) - covered),
+            "details": {str(k): step.text for k, step in enumerate(steps, start=2)},
+            "method": f"1-{last}",
+            "device": str(last + 1),
+            "medium": str(last + 2),
+            "claims": str(last + 2),
         },
         table=pd.DataFrame(rows, columns=["claim", "code"]),
         caption=(
-            f"{method} claims are on the method, one on a device and one on a storage medium. "
-            f"Claims 2 to 8 lead to the {len(covered)} steps one by one; claims 1, 9 and 10 take "
-            "them together."
+            f"A traced run ends {len(steps)} steps one after the other. One claim for the whole, "
+            f"one for each step in its order and two for device and medium make {last + 2} claims; "
+            "the table leads from each to the code that carries it out."
         ),
     )

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...control.neural.fixed_step import divergence_time, simulate_network
+from ...control.neural.fixed_step import divergence_time as stability_end
+from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
 from ...control.settings import Settings
 from ...ledger import REGISTRY, Proof
-from .derivation import rest_point, sample_problem
-from .network import GAINS
-from .scenario import CONTROL_STEP, frozen, run
+from .constants import CONTROL_STEP
+from .gain import GAINS
+from .penalised import rest_point, sample_problem
+from .scenario import frozen, run
 
 
 @REGISTRY.proves("patent.state_in_right_side")
@@ -68,7 +70,7 @@ def soft_inequalities() -> Proof:
 def unbounded_gain() -> Proof:
     """Times at which explicit steps of 1 ms diverge, against ln(2 / (gamma dt))."""
     scenario = frozen("crossing")
-    found, predicted = [], [divergence_time(gamma, CONTROL_STEP) for gamma in GAINS]
+    found, predicted = [], [stability_end(gamma, CONTROL_STEP) for gamma in GAINS]
     for gamma in GAINS:
         network = NetworkSettings(gamma=gamma, capped=False)
         motion = simulate_network(

@@ -1,4 +1,4 @@
-"""Random tasks: how many collide without avoidance, and how many each reading completes."""
+"""Random tasks: which collide without avoidance, and how the QP and the network fare on them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from ...control.motion import Motion
+from ...control.neural.fixed_step import simulate_network
+from ...control.neural.network_settings import NetworkSettings
 from ...control.settings import FORMS, Settings
 from ...control.simulate import simulate
+from ...control.system import ArmSystem
 from ...ledger import REGISTRY, Study
-from .robots import SEED
-from .scenario import COARSE_STEP
+from .constants import COARSE_STEP, CONTROL_STEP, SEED
 from .tasks import arm_pair, draw_task, naive_motion
 
 DRAWS = 6000
@@ -21,6 +24,7 @@ SETTINGS: dict[str, Any] = {
     "base_distance": 0.6,
     "radii": [0.10, 0.20],
     "step": COARSE_STEP,
+    "network_step": CONTROL_STEP,
     "outer": Settings().outer,
     "inner": Settings().inner,
 }
@@ -32,7 +36,7 @@ def cells() -> list[dict[str, int]]:
 
 
 def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    """Screen one task; if naive motion collides, run it with every reading and with slack.
+    """Screen one task; if naive motion collides, run it with every reading, with slack and network.
 
     A task counts if its start is outside the outer range and the pseudo-inverse follows its path.
     """
@@ -42,11 +46,9 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
     found: dict[str, Any] = {"counts": naive is not None}
     if naive is None:
         return found
-    arrays = system.arrays
-    beyond = max(float((naive.q - arrays.upper).max()), float((arrays.lower - naive.q).max()))
     found |= {
         "naive_distance": naive.smallest_distance,
-        "naive_beyond_angle": beyond,
+        "naive_beyond_angle": _beyond_angle(system, naive),
         "collides": naive.smallest_distance < 0,
     }
     if not found["collides"]:
@@ -61,12 +63,29 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
             f"{form}_acceleration": motion.peak_acceleration,
             f"{form}_energy": motion.energy,
         }
-    motion = simulate(system, circles, task.q0, settings, dt=COARSE_STEP, slack=True)
+    limited = simulate(system, circles, task.q0, Settings(avoid=False), dt=COARSE_STEP)
+    slack = simulate(system, circles, task.q0, settings, dt=COARSE_STEP, slack=True)
+    network = simulate_network(
+        system, circles, task.q0, settings, NetworkSettings(), dt=CONTROL_STEP
+    )
     return found | {
-        "slack_completed": motion.completed,
-        "slack_distance": motion.smallest_distance,
-        "slack_error": motion.largest_error,
+        "limits_completed": limited.completed,
+        "slack_completed": slack.completed,
+        "slack_distance": slack.smallest_distance,
+        "slack_error": slack.largest_error,
+        "slack_acceleration": slack.peak_acceleration,
+        "network_completed": network.completed,
+        "network_distance": network.smallest_distance,
+        "network_error": network.largest_error,
+        "network_beyond_angle": _beyond_angle(system, network),
+        "network_beyond_speed": float((np.abs(network.x) - system.arrays.speed).max()),
     }
+
+
+def _beyond_angle(system: ArmSystem, motion: Motion) -> float:
+    """Largest excess over an angle limit, negative inside [rad]."""
+    arrays = system.arrays
+    return max(float((motion.q - arrays.upper).max()), float((arrays.lower - motion.q).max()))
 
 
 TASKS = REGISTRY.keeps(

@@ -17,12 +17,9 @@ from ...control.simulate import simulate
 from ...control.system import ArmSystem
 from ...datafiles import data_path
 from ...tracking import memo
+from .constants import CONTROL_STEP
 from .tasks import Task, arm_pair
 
-#: Rate of the controller, 1 kHz [s].
-CONTROL_STEP = 1e-3
-#: Step of runs that are repeated many times [s].
-COARSE_STEP = 5e-3
 #: Frozen crossing of each robot.
 CROSSING = {"panda": "crossing", "xarm7": "crossing_xarm7"}
 
@@ -80,8 +77,6 @@ def scenario_file(name: str) -> Scenario:
 
 def crossing(assumed: Mapping[str, Any], *names: str) -> Frozen:
     """The frozen crossing of the assumed robot, with what the named assumptions say about it."""
-    for name in ("path", "task_dimension"):  # the only values there are
-        assumed[name]
     return frozen(CROSSING[assumed["robot"]], **{_PLACES[name]: assumed[name] for name in names})
 
 
@@ -90,8 +85,6 @@ def settings_of(assumed: Mapping[str, Any], *names: str) -> Settings:
     fields = {_FIELDS[name]: assumed[name] for name in names}
     if "angle_limits" in fields:
         fields["angle_limits"] = fields["angle_limits"] == "velocity_and_angle"
-    if "surface" in fields:
-        fields["surface"] = fields["surface"] == "surface"
     return Settings(**fields)
 
 
@@ -126,7 +119,6 @@ _FIELDS = {
     "damper_gain": "damper_gain",
     "outer_range": "outer",
     "inner_range": "inner",
-    "distance_measure": "surface",
     "limit_form": "angle_limits",
     "limit_gain": "limit_gain",
     "limit_margin": "limit_margin",

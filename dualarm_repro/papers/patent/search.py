@@ -12,7 +12,7 @@ from ...control.motion import Motion
 from ...control.settings import Settings
 from ...control.simulate import pseudo_inverse, simulate
 from ...control.system import ArmSystem
-from .robots import SEED
+from .constants import SEED
 from .tasks import REACHED, Task, arm_pair, draw_task
 
 BASE_DISTANCE = 0.6

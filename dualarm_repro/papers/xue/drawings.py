@@ -14,7 +14,8 @@ from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
 from ..wording import point
-from .chain_errata import SHARED
+from .chain_errata import SHARED, printed_lengths
+from .printed_chain import LINKS, joint_variable, link_matrix
 from .readings import lengths
 from .scenario import MASTER_GOAL, MASTER_START, base_placements
 
@@ -34,7 +35,7 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
 )
 def dimensions(assumed: Assumed) -> Result:
     """Side view of the published robot, with the lengths the matrices share with it."""
-    printed, published = lengths("matrices"), lengths("published")
+    printed, published = printed_lengths(), lengths("published")
     differences = {name: published[name] - printed[name] for name in printed}
     table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
     return Result(
@@ -48,7 +49,7 @@ def dimensions(assumed: Assumed) -> Result:
             "Published ES165D in the maker's upright posture. The matrices share "
             f"{', '.join(SHARED)} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
             f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The "
-            "text edition carries no number of the drawing, so agreement with it cannot be decided."
+            "text edition carries no number of the drawing, so there is nothing to compare it with."
         ),
         alt=(
             "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
@@ -66,6 +67,9 @@ def dimensions(assumed: Assumed) -> Result:
             high=1e-12,
             label="each z axis is the axis its joint turns about, to",
         ),
+        Bounded(
+            key="frame_error", high=1e-12, label="each frame is the product of printed matrices, to"
+        ),
         NoOriginal(key="drawing", label="the drawing of the frames"),
     ],
 )
@@ -81,7 +85,11 @@ def link_frames(assumed: Assumed) -> Result:
     table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=_frame_columns())
     table.insert(0, "frame", range(7))
     return Result(
-        obtained={"origins": frames[:, :3, 3].tolist(), "axis_error": error},
+        obtained={
+            "origins": frames[:, :3, 3].tolist(),
+            "axis_error": error,
+            "frame_error": float(abs(frames - _printed_frames(MASTER_START)).max()),
+        },
         table=table,
         caption=(
             "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm "
@@ -145,6 +153,15 @@ def _joint_frames(q: np.ndarray) -> list[np.ndarray]:
     data = arm.model.createData()
     pin.forwardKinematics(arm.model, data, q)
     return [data.oMi[k].homogeneous for k in range(1, arm.nq + 1)]
+
+
+def _printed_frames(q: np.ndarray) -> np.ndarray:
+    """Frames 0 to 6 as products of matrices (2)-(7)."""
+    frames = [np.eye(4)]
+    for k in LINKS:
+        link = link_matrix(k).subs(joint_variable(k), q[k - 1])
+        frames.append(frames[-1] @ np.array(link, dtype=float))
+    return np.array(frames)
 
 
 def _common_origins(frames: np.ndarray) -> str:

@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Result, Role, Rounds
+from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result, Role, Rounds
 from ...planning.control_points import end_effector
+from ...scene import JointPath, facing
 from ...view.scene3d import Scene3D
 from ...view.tracks import tracks_figure
 from ..wording import point
+from .chosen import nominal
 from .layout import Layout, placed_master, placed_slave
+from .methods import improved, traditional
 from .motion_scenes import stage
-from .motions import Case, master_track, slave_undisturbed
-from .scenario import GAINS
+from .motions import master_track, slave_undisturbed
+from .scenario import MASTER_GOAL
 
 checks = partial(REGISTRY.checks, page="xue/scene")
 
 
 @checks(
     "xue.fig04",
-    samples=32,
     rules=[
-        Rounds(key="start", to="start", label="Start in the figure"),
-        Rounds(key="end", to="end", label="End in the figure"),
+        Rounds(key="start", to="start", label="Start in the figure, in the frame of the document"),
+        Rounds(key="end", to="end", label="End in the figure, in the frame of the document"),
+        Bounded(key="off_centre", high=1e-12, label="virtual point to the middle of the bars [m]"),
         NoOriginal(key="window", label="size, place and direction of the window"),
     ],
 )
@@ -32,21 +36,27 @@ def window(assumed: Assumed) -> Result:
     """The window with Start, End and the virtual point in its middle."""
     layout = Layout.of(assumed)
     start, end = layout.slave_points()
+    origin = layout.slave_base if layout.slave_frame == "slave_base" else np.zeros(3)
     centre, bars = layout.window_centre, layout.window()
+    middle = np.mean([bar.center for bar in bars], axis=0)
+    sides = (np.array([start, end]) - centre) @ facing(layout.normal)[:, 2]
 
     def scene() -> Scene3D:
         return stage("The window with Start (green), End (black) and the virtual point.", layout)
 
     return Result(
         obtained={
-            "start": start.tolist(),
-            "end": end.tolist(),
+            "start": (start - origin).tolist(),
+            "end": (end - origin).tolist(),
+            "off_centre": float(abs(middle - centre).max()),
+            "between": bool(sides[0] * sides[1] < 0.0),
             "centre": centre.tolist(),
             "opening": [layout.window_opening_width, layout.window_opening_height],
         },
         caption=(
-            f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, on either side of "
-            f"a window found by search: opening {layout.window_opening_width:g} by "
+            f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, "
+            + ("on either side" if sides[0] * sides[1] < 0.0 else "both on one side")
+            + f" of a window found by search: opening {layout.window_opening_width:g} by "
             f"{layout.window_opening_height:g} m about ({point(centre, 2)}) m, bars of "
             f"{layout.window_bar:g} m. Nothing of the window is printed, so there is nothing to "
             "compare it with."
@@ -64,17 +74,38 @@ def window(assumed: Assumed) -> Result:
 
 @checks(
     "xue.claim_gains",
-    rules=[Adopts(key=name, to=name, label=f"{name} used") for name in GAINS],
+    rules=[
+        Adopts(key=name, to=name, label=f"{name} of the planner") for name in ("k_a", "k_w", "k_r")
+    ]
+    + [
+        Adopts(key="d_0", to="d_0", label="d_0 of the planner"),
+        Is(key="both", value=True, role=Role.ADOPTS, label="the traditional method has the same"),
+    ],
 )
 def gains(assumed: Assumed) -> Result:
-    """The gains the planners are built with."""
-    unit, virtual = assumed["length_unit"], assumed["virtual_gain"]
-    used = {**GAINS, "k_w": float(virtual)}
+    """The gains of the planners that are run."""
+    case = nominal()
+    method = replace(case.method, virtual_gain=assumed["virtual_gain"])
+    new = improved(method, case.layout.window_centre, MASTER_GOAL)
+    old = traditional(method, "end_effector")
+    used = {
+        "k_a": new.attraction.gain,
+        "k_w": float(new.virtual_point.gain),
+        "k_r": new.repulsion.gain,
+        "d_0": new.repulsion.influence,
+    }
+    both = (old.attraction.gain, old.repulsion.gain, old.repulsion.influence) == (
+        used["k_a"],
+        used["k_r"],
+        used["d_0"],
+    )
     values = ", ".join(f"{name} = {value:g}" for name, value in used.items())
+    unit = assumed["length_unit"]
     return Result(
-        obtained=used,
+        obtained={**used, "both": both},
         caption=(
-            f"Used as printed: {values}, with d_0 in {unit}; k_w is the gain named k_av elsewhere."
+            f"The planners run with {values}, with d_0 in {unit}; k_w is the gain named k_av "
+            "elsewhere."
         ),
     )
 
@@ -110,34 +141,55 @@ _register_slave_point("xue.claim_slave_end", "goal", "End")
 
 @checks(
     "xue.claim_equal_speed",
-    samples=32,
     rules=[
-        Is(key="equal", value=True, role=Role.ADOPTS, label="equal speed, in the sense assumed")
+        Bounded(
+            key="difference",
+            high=1e-4,
+            role=Role.ADOPTS,
+            label="speeds of master and slave in the sense assumed, relative difference",
+        )
     ],
 )
 def equal_speed(assumed: Assumed) -> Result:
-    """The index that both motions share."""
-    case = Case.of(assumed)
+    """Speeds of the two motions that are run, in the joints and at the tools."""
+    case = nominal()
+    case = case._replace(
+        encounter=replace(case.encounter, equal_speed_meaning=assumed["equal_speed_meaning"])
+    )
     track, slave = master_track(case), slave_undisturbed(case.layout, case.method)
-    if track is None or slave is None:
-        return Result({"equal": False}, "In this arrangement there are not two motions to compare.")
-    steps = np.diff(track.index)
-    speed = slave.tcp_length / slave.steps
     flange = end_effector(placed_master(case.layout), track.configurations)
-    moved = np.linalg.norm(np.diff(flange, axis=0), axis=1)
-    per_instant = float(moved.sum() / track.index[-1])
-    same_step = case.encounter.equal_speed_meaning == "same_step"
-    equal = np.allclose(steps, 1.0) if same_step else np.isclose(per_instant, speed)
+    tools = (_mean_step(flange, track.index), slave.tcp_length / slave.steps)
+    joints = (_largest_step(track), _largest_step(slave.joint_path()))
+    pairs = {"same_step": joints, "same_tool_speed": tools}
+    differences = {sense: abs(a - b) / max(a, b) for sense, (a, b) in pairs.items()}
+    senses = {
+        "same_step": "the largest joint step per instant",
+        "same_tool_speed": "the mean advance of the end effector per instant",
+    }
+    sense = case.encounter.equal_speed_meaning
+    other = next(name for name in senses if name != sense)
     return Result(
         obtained={
-            "equal": bool(equal),
-            "master_m_per_step": per_instant,
-            "slave_m_per_step": speed,
+            "difference": differences[sense],
+            "other_difference": differences[other],
+            "joint_step_rad": {"master": joints[0], "slave": joints[1]},
+            "tool_m_per_instant": {"master": tools[0], "slave": tools[1]},
         },
         caption=(
-            "Each arm makes one bounded joint step per instant. Its end effector then covers "
-            f"{100 * per_instant:.2f} cm per step on average for the master and {100 * speed:.2f} "
-            "cm for the slave: equal speed of the joints is not equal speed of the tools, and "
-            "which of them is meant is not printed."
+            f"Equal speed is read as {senses[sense]}, in which the two motions run differ by "
+            f"{differences[sense]:.1%}. In the other reading, {senses[other]}, they differ by "
+            f"{differences[other]:.0%} ({100 * tools[0]:.2f} and {100 * tools[1]:.2f} cm at the "
+            "tools); which of them is meant is not printed."
         ),
     )
+
+
+def _largest_step(track: JointPath) -> float:
+    """Largest joint displacement per instant [rad]."""
+    steps = np.linalg.norm(np.diff(track.configurations, axis=0), axis=1) / np.diff(track.index)
+    return float(steps.max())
+
+
+def _mean_step(points: np.ndarray, index: np.ndarray) -> float:
+    """Length of a track over the instants it takes [m]."""
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() / index[-1])

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, Result, Role
-from ...planning.control_points import control_points
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
+from ...planning.problem import problem
 from ...view.shares import curve_figure
-from .layout import arms_of
-from .motions import Case, master_track, slave_plan
+from .chosen import nominal
+from .facts import flanges_apart
+from .layout import placed_master, placed_slave
+from .methods import improved
+from .motions import Case, master_track, slave_obstacles, slave_plan
 from .readings import lengths
-from .stored import clear_share, share, successful
-from .table_2 import DECISIVE
+from .stored import choice, clear_share, is_declared, share, successful
 from .truth import Cores, largest_radius, link_cores
 
 checks = partial(REGISTRY.checks, page="xue/truth")
@@ -24,11 +28,10 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
 @checks(
     "xue.claim_only_tcp",
     rules=[
-        Bounded(key="lottery.high", low=0.05, label="arrangements with clear links, upper bound"),
-        Bounded(
-            key="lottery.low",
-            low=DECISIVE,
-            label="arrangements with clear links, lower bound; else a printed layout",
+        Is(
+            key="links_collide",
+            value=False,
+            label="the end effectors stay apart, and other links of the two arms touch",
         ),
     ],
     samples=32,
@@ -37,68 +40,112 @@ def only_end_effectors(assumed: Assumed) -> Result:
     """Links of both arms in the nominal arrangement and over the lottery."""
     case, radius = Case.of(assumed), assumed["link_radius"]
     slave, track = slave_plan(case), master_track(case)
-    found = clear_share(radius)
+    found = clear_share(radius, "arms")
     parts = {pair: clear_share(radius, pair) for pair in ("slave_window", "master_window", "arms")}
+    parts["all"] = clear_share(radius)
     floor = case.layout.master_base_z - lengths("published")["d1"]
-    nominal = None
+    cores, apart = None, None
     if slave is not None and track is not None:
-        nominal = link_cores(case.layout, slave, track, floor)
+        cores = link_cores(case.layout, slave, track, floor)
+        apart = float(flanges_apart(slave, placed_master(case.layout), track).min())
     ends = successful()
     posture_hits = share(
         (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum(), len(ends)
     )
     nearest = ends["nearest_link"].mode()[0]
+    collide = (
+        cores is not None
+        and apart > assumed["meeting_distance"]
+        and 0.5 * cores.smallest["arms"] <= radius
+    )
     return Result(
         obtained={
+            "links_collide": bool(collide),
+            "flanges_apart": apart,
             "lottery": found._asdict(),
             "by_pair": {pair: value._asdict() for pair, value in parts.items()},
             "start_or_end_collides": posture_hits._asdict(),
             "nearest_link": nearest,
             "arrangements": len(ends),
-            **_nominal_numbers(nominal, radius),
+            **_nominal_numbers(cores, radius),
         },
-        table=None if nominal is None else nominal.found.to_frame().reset_index(),
+        table=None if cores is None else cores.found.to_frame().reset_index(),
         caption=(
-            _nominal_sentence(nominal, radius)
+            _nominal_sentence(cores, radius)
             + f" Of {len(ends)} random arrangements in which the end effectors do what Figs 8 to "
-            f"11 show, all links of radius {radius:g} m stay clear in {found.value:.0%} (95 % "
-            f"interval {found.low:.0%} to {found.high:.0%}); in {posture_hits.value:.0%} the "
+            f"11 show, the links of the two arms, of radius {radius:g} m, stay clear of each other "
+            f"in {found.value:.0%} (95 % interval {found.low:.0%} to {found.high:.0%}), and of the "
+            f"window as well in {parts['all'].value:.0%}; in {posture_hits.value:.0%} the "
             "slave's posture at Start or End already touches a bar. The link nearest to the "
-            f"window is most often {nearest}. That no other link collides is thus no rule, and "
-            "for the document's own arrangement it cannot be decided."
+            f"window is most often {nearest}. What is printed thus does not imply that no other "
+            "link collides; whether it was so in the document's own arrangement is left open."
         ),
         alt="Share of random arrangements with clear links over the link radius, falling steeply.",
         figure=_radius_figure,
+        witnesses=arms_witnesses(radius),
     )
+
+
+def arms_witnesses(radius: float) -> list[dict[str, Any]]:
+    """Two declared arrangements in which the end effectors stay apart: arms clear, and not."""
+    table = successful()
+    table = table[is_declared(table)]
+    clear = (0.5 * table["cores_arms"] > radius).to_numpy()
+    return [
+        choice(
+            int(table.index[np.flatnonzero(mask)[0]]),
+            verdict,
+            flanges_apart=float(table["flanges_apart"].to_numpy()[mask][0]),
+            links_touch_at_radius=float(0.5 * table["cores_arms"].to_numpy()[mask][0]),
+        )
+        for mask, verdict in ((clear, "holds"), (~clear, "fails"))
+        if mask.any()
+    ]
 
 
 @checks(
     "xue.claim_joints_as_points",
     rules=[
         Bounded(
-            key="size", high=0.0, role=Role.ADOPTS, label="radius and length of a control point [m]"
+            key="size",
+            high=0,
+            role=Role.ADOPTS,
+            label="largest radius or length of what attracts, repels and is repelled [m]",
         )
     ],
     samples=8,
 )
 def joints_as_points(assumed: Assumed) -> Result:
-    """The control points have no size; what that hides."""
-    points = control_points(arms_of("matrices")[1], assumed["control_points"])
+    """Sizes in the problem that the slave's planner is given; what no size hides."""
+    case = nominal()
+    method = replace(case.method, control_points=assumed["control_points"])
+    placed, obstacles = placed_slave(case.layout), slave_obstacles(case._replace(method=method))
+    settings = improved(method, case.layout.window_centre, placed.goal)
+    points = problem(placed, placed.start, placed.goal, obstacles, settings).points
     radius = assumed["link_radius"]
-    length = np.linalg.norm(points.local[:, 1] - points.local[:, 0], axis=1)
+    pieces = ((points.local, points.radius), (obstacles.cores[0], obstacles.radius))
+    size = max(_largest(*piece) for piece in pieces)
     thin, thick = clear_share(0.0), clear_share(radius)
     return Result(
         obtained={
-            "size": float(max(length.max(), points.radius.max())),
+            "size": size,
             "clear_without_thickness": thin._asdict(),
             "clear_with_radius": thick._asdict(),
         },
         caption=(
-            f"The potentials act on {len(points.names)} points without size. Where the points "
-            f"avoid everything, the segments between them are clear in {thin.value:.0%} of the "
-            f"arrangements, links of radius {radius:g} m in {thick.value:.0%}."
+            f"The potentials act on {len(points.names)} points of the slave and repel it from "
+            f"{len(obstacles.radius)} of the master; the largest of them measures {size:g} m. "
+            "Where the points avoid everything, the segments between them are clear in "
+            f"{thin.value:.0%} of the arrangements, links of radius {radius:g} m in "
+            f"{thick.value:.0%}."
         ),
     )
+
+
+def _largest(ends: np.ndarray, radius: np.ndarray) -> float:
+    """Largest radius or length among cores with ends (K, 2, 3) [m]."""
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return float(max(length.max(), radius.max()))
 
 
 def _nominal_numbers(nominal: Cores | None, radius: float) -> dict:
@@ -107,7 +154,7 @@ def _nominal_numbers(nominal: Cores | None, radius: float) -> dict:
     return {
         "nominal": nominal.smallest,
         "nominal_largest_radius": largest_radius(nominal.smallest),
-        "nominal_clear": largest_radius(nominal.smallest) > radius,
+        "nominal_arms_clear": 0.5 * nominal.smallest["arms"] > radius,
         "nominal_floor": {
             name: float(nominal.between(name, "floor").min()) for name in ("master", "slave")
         },
@@ -117,12 +164,13 @@ def _nominal_numbers(nominal: Cores | None, radius: float) -> dict:
 def _nominal_sentence(nominal: Cores | None, radius: float) -> str:
     if nominal is None:
         return "In this arrangement there are not two motions to check."
-    limit = largest_radius(nominal.smallest)
-    word = "clear" if limit > radius else "not clear"
+    arms, limit = 0.5 * nominal.smallest["arms"], largest_radius(nominal.smallest)
+    word = "clear of each other" if arms > radius else "not clear of each other"
     return (
-        f"In the arrangement shown, selected for it, links of radius {radius:g} m are {word}: they "
-        f"would touch at {limit:.3f} m. On a floor at the published height of the base, the master "
-        f"would reach {-nominal.between('master', 'floor').min():.2f} m below it."
+        f"In the arrangement shown, selected for it, links of radius {radius:g} m of the two arms "
+        f"are {word}: they would touch at {arms:.3f} m, and a bar at {limit:.3f} m or more. On a "
+        "floor at the published height of the base, the master would reach "
+        f"{-nominal.between('master', 'floor').min():.2f} m below it."
     )
 
 

@@ -11,17 +11,18 @@ from .chosen import nominal
 from .layout import placed_master
 from .link_truth import RADII
 from .motions import master_track, master_undisturbed, slave_plan
-from .potentials import attractive_force_forms, one_dimension, rest_point_formula
+from .new_potentials import rest_slope, term_scaling
+from .potentials import attractive_force_forms
 from .scenario import GAINS, SLAVE_END, SLAVE_START
 from .stored import ablation_shares, clear_share, minima_shares, virtual_point_counts
-from .table_2 import TEXT, printed_counts
+from .trap_counts import table_counts, text_counts
 from .trials import FLAT, METHODS, TRIALS, run_methods, starts
 from .truth import largest_radius, link_cores
 
 
 @REGISTRY.proves("xue.force_modulus")
 def force_modulus() -> Proof:
-    """The gradient of (9) in symbols against the vector and against the printed scalar."""
+    """The two printed sides of (11), and the last one without its modulus."""
     forms = attractive_force_forms()
     return Proof(
         "-grad U_att of (9) equals -k_a (X - X_g) and not, even along a line, -k_a |X - X_g|",
@@ -33,13 +34,13 @@ def force_modulus() -> Proof:
 @REGISTRY.proves("xue.eq13_units")
 def eq13_units() -> Proof:
     """Dimensions of the two terms, and what a change of the unit of length does."""
-    shares = minima_shares()
+    shares, scaling = minima_shares(), term_scaling()
     metres, millimetres = shares[1.0].value, shares[1e-6].value
     return Proof(
-        "the two squares have different dimensions, so that the unit of length acts as a weight: "
+        "the two printed terms do not scale alike with the unit of length, which so is a weight: "
         "with lengths in millimetres far more descents end elsewhere than with metres",
-        not one_dimension() and shares[1e-6].low > shares[1.0].high,
-        {"minima_share_in_m": metres, "minima_share_in_mm": millimetres},
+        not scaling["one_dimension"] and shares[1e-6].low > shares[1.0].high,
+        {**scaling, "minima_share_in_m": metres, "minima_share_in_mm": millimetres},
     )
 
 
@@ -62,7 +63,7 @@ def slave_goal_angles() -> Proof:
     return Proof(
         "(13) cannot be evaluated for the slave before inverse kinematics has been called for its "
         "goal",
-        values["postures"] >= 1,
+        values["needs_goal_angles"] and values["calls"]["slave"] >= 1 > values["calls"]["master"],
         values,
     )
 
@@ -70,13 +71,14 @@ def slave_goal_angles() -> Proof:
 @REGISTRY.proves("xue.virtual_term_absent")
 def virtual_term_absent() -> Proof:
     """A term of the form (9) that always acts keeps the arm off its goal."""
-    layout = nominal().layout
+    case = nominal()
+    layout = case.layout
     share = GAINS["k_w"] / (GAINS["k_w"] + GAINS["k_a"])
     offset = share * float(np.linalg.norm(SLAVE_END - layout.window_centre))
     return Proof(
         "with the term always on, the end effector would rest on the line from goal to virtual "
         "point, so that a rule for switching it off is needed",
-        rest_point_formula() and offset > 0.02,
+        rest_slope() < 1e-6 and offset > case.method.goal_tolerance,
         {"rest_share": share, "slave_distance_from_goal": offset},
     )
 
@@ -102,9 +104,10 @@ def virtual_point_credit() -> Proof:
 def stop_at_zero() -> Proof:
     """Where a trapped run stands still the potential is positive."""
     obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
+    zero = REGISTRY.look("xue.claim_stop_zero", "thresholds").thresholds["above_zero"].value
     return Proof(
         "where a run stands still short of the goal the gradient vanishes, not the potential",
-        obtained["at_trap"] > 0.01 and obtained["gradient"] < FLAT,
+        obtained["at_trap"] > zero and obtained["gradient"] < FLAT,
         obtained,
     )
 
@@ -112,13 +115,13 @@ def stop_at_zero() -> Proof:
 @REGISTRY.proves("xue.table2_exchange")
 def table2_exchange() -> Proof:
     """The trap column as printed against the text before the table."""
-    table = printed_counts()
+    table, text = table_counts(), text_counts()
     exchanged = dict(zip(table, reversed(table.values()), strict=True))
     return Proof(
         "the trap column of the table contradicts the text, and agrees with it once its two "
         "entries are exchanged",
-        table != TEXT and exchanged == TEXT,
-        {"table": table, "text": TEXT, "table_exchanged": exchanged},
+        table != text and exchanged == text,
+        {"table": table, "text": text, "table_exchanged": exchanged},
     )
 
 
@@ -164,10 +167,11 @@ def layout_conflict() -> Proof:
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)
     ]
+    farthest = REGISTRY.declared("xue.meeting_distance", "range").range[1]
     anywhere = float(np.linalg.norm(track + case.layout.master_base - line, axis=1).min())
     return Proof(
         "a base moved sideways only never brings the two end effectors together at one instant; "
         "one moved in three directions does",
-        min(sideways) > 0.5 > anywhere,
+        min(sideways) > farthest > anywhere,
         {"best_sideways": min(sideways), "base_of_the_arrangement": anywhere},
     )

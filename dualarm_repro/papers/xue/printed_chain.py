@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import sympy as sp
 
 from ...ledger import REGISTRY
@@ -10,7 +11,7 @@ from .scenario import matrices_robot
 
 A, ALPHA, D, THETA = sp.symbols("a_prev alpha_prev d theta", real=True)
 LINKS = range(1, 7)
-_NAMES = {"a_prev": A, "d_i": D, "theta_i": THETA}
+_NAMES = {"a_prev": A, "alpha_prev": ALPHA, "d_i": D, "theta_i": THETA}
 
 
 def joint_variable(k: int) -> sp.Symbol:
@@ -73,6 +74,23 @@ def printed_parameters() -> dict[str, list[float]]:
         table["d"].append(float(axis.dot(shift)))
         table["alpha"].append(float(sp.atan2(-axis[1], axis[2])))
     return table
+
+
+def table_parameters() -> dict[str, list[float]]:
+    """Columns a_{i-1}, d_i and alpha_{i-1} of Table 1 under their printed headers."""
+    printed = REGISTRY.printed("xue.tab01")
+    return {
+        name: [float(sp.sympify(cell)) for cell in printed[name]] for name in ("a", "d", "alpha")
+    }
+
+
+def table_pose(q: np.ndarray) -> np.ndarray:
+    """Pose of the flange (4, 4) by Table 1, read under its own headers, at angles (6,)."""
+    rows, pose = table_parameters(), np.eye(4)
+    link = sp.lambdify([A, ALPHA, D, THETA], general_matrix(corrected=True), "numpy")
+    for values in zip(rows["a"], rows["alpha"], rows["d"], q, strict=True):
+        pose = pose @ np.asarray(link(*values), dtype=float)
+    return pose
 
 
 def product(links: list[sp.Matrix]) -> sp.Matrix:

@@ -35,8 +35,13 @@ def sample_problem(
     joint_weight: float = 1.0,
     virtual_gain: float = 2.0,
     virtual_centre: tuple[float, float, float] = tuple(_CENTRE),
+    virtual_switching: str = "on_when_stuck",
+    virtual_joints: bool = False,
 ) -> Problem:
-    """Master from the printed start to the printed goal beside a window, with the printed gains."""
+    """Master from the printed start to the printed goal beside a window, with the printed gains.
+
+    With ``virtual_joints`` the virtual point attracts the joints to the goal angles as well.
+    """
     arm = load_arm("es165d")
     placed = PlacedArm("master", arm, pin.SE3.Identity(), MASTER_START, MASTER_GOAL)
     window = window_frame(_CENTRE, facing((1.0, 0.0, 0.0)), 0.5, 0.5, 0.1, 0.1)
@@ -50,7 +55,8 @@ def sample_problem(
         virtual_point=VirtualPoint(
             gain=virtual_gain,
             position=virtual_centre,
-            switching="always",
+            joints=tuple(MASTER_GOAL) if virtual_joints else None,
+            switching=virtual_switching,
             release_distance=0.1,
             max_steps=1,
             max_activations=1,

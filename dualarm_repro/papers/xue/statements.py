@@ -10,6 +10,8 @@ import sympy as sp
 from ...arms import load_arm
 from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, Result
 from ..wording import point
+from .chosen import nominal
+from .layout import placed_master
 from .printed_chain import (
     ALPHA,
     LINKS,
@@ -22,7 +24,7 @@ from .printed_chain import (
     link_matrix,
     product,
 )
-from .scenario import MASTER_GOAL, MASTER_START, SEED, matrices_robot
+from .scenario import MASTER_GOAL, SEED, matrices_robot
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
 
@@ -92,13 +94,15 @@ def mirror(assumed: Assumed) -> Result:
 def master_start(assumed: Assumed) -> Result:
     """Start of the master, and how far it is outside the range of the real axis L."""
     arm = load_arm("es165d")
-    excess = float(np.rad2deg(MASTER_START[1] - arm.upper[1]))
-    tcp = arm.fk(MASTER_START)[:3, 3]
+    start = placed_master(nominal().layout).start
+    excess = float(np.rad2deg(start[1] - arm.upper[1]))
+    tcp = arm.fk(start)[:3, 3]
     return Result(
-        obtained={"q": MASTER_START.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
+        obtained={"q": start.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
         caption=(
             f"The start is used as printed; its flange is at ({point(tcp)}) m. Axis L of the real "
-            f"robot would be {excess:.1f} deg beyond its range."
+            f"robot would be {abs(excess):.1f} deg {'beyond' if excess > 0 else 'inside'} its "
+            "range."
         ),
     )
 
@@ -109,11 +113,11 @@ def master_start(assumed: Assumed) -> Result:
 )
 def master_goal(assumed: Assumed) -> Result:
     """Goal of the master; unlike the start it tells Table 1 from the matrices."""
-    arm = load_arm("es165d")
-    tcp = arm.fk(MASTER_GOAL)[:3, 3]
-    inside = arm.within_limits(MASTER_GOAL)
+    arm, goal = load_arm("es165d"), placed_master(nominal().layout).goal
+    tcp = arm.fk(goal)[:3, 3]
+    inside = arm.within_limits(goal)
     return Result(
-        obtained={"q": MASTER_GOAL.tolist(), "tcp": tcp.tolist(), "within_limits": inside},
+        obtained={"q": goal.tolist(), "tcp": tcp.tolist(), "within_limits": inside},
         caption=(
             f"The goal is used as printed; its flange is at ({point(tcp)}) m, "
             f"{'inside' if inside else 'outside'} the joint ranges of the real robot."

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from ...ledger import REGISTRY
 from ...tracking import memo
 from ...view.shares import Share
 from .ablation import ABLATION, NAMED
+from .comparison import COMPARISON
+from .layout import Layout
 from .lottery import LOTTERY
 from .minima import MINIMA
 from .repeated import REPEATED
+from .trap_counts import text_counts
 from .trials import METHODS, wilson
-
-#: Table 2 by the text: this many traditional runs miss, and no improved one.
-MANY_MISSED = 7
 
 
 def share(count: float, runs: float) -> Share:
@@ -33,32 +35,79 @@ def lottery_table() -> pd.DataFrame:
 
 def missed(method: str) -> np.ndarray:
     """Runs of ten that miss the goal, per arrangement; ``end_effector`` is the usual reading."""
-    column = {"end_effector": "traditional"}.get(method, method)
-    return lottery_table()[f"{column}_missed"].to_numpy()
+    return lottery_table()[f"{column_of(method)}_missed"].to_numpy()
+
+
+def held(method: str) -> np.ndarray:
+    """Runs of ten that stand still and stay after small pushes, per arrangement."""
+    return lottery_table()[f"{column_of(method)}_held"].to_numpy()
+
+
+def column_of(method: str) -> str:
+    """Columns of a method; ``end_effector`` is the usual reading of the traditional one."""
+    return "traditional" if method == "end_effector" else method
+
+
+def outcomes_of_table_2(reading: str) -> dict[str, np.ndarray]:
+    """In which arrangements the outcomes of Table 2 show, (N,) of bool each.
+
+    ``text``: at least as many traditional runs as the text prints are held in a trap, and no
+    improved run misses the goal. ``table``: the same with the methods exchanged, as in the rows.
+    """
+    old, new = missed(reading), missed("improved")
+    many = max(text_counts().values())
+    return {
+        "text": (held(reading) >= many) & (new == 0),
+        "table": (held("improved") >= many) & (old == 0),
+        "traditional_mostly_held": held(reading) >= many,
+        "improved_never_missed": new == 0,
+        "both_never_missed": (old == 0) & (new == 0),
+    }
 
 
 def lottery_shares(reading: str) -> dict[str, Share]:
-    """How often the outcomes of Table 2 show; ``reading`` of the traditional method.
+    """How often these outcomes show; ``reading`` of the traditional method."""
+    found = outcomes_of_table_2(reading)
+    return {name: share(mask.sum(), len(mask)) for name, mask in found.items()}
 
-    ``text``: at least 7 of 10 traditional and no improved runs miss. ``table``: the same with the
-    methods exchanged, as the rows are printed.
-    """
-    old, new = missed(reading), missed("improved")
-    outcomes = {
-        "text": (old >= MANY_MISSED) & (new == 0),
-        "table": (new >= MANY_MISSED) & (old == 0),
-        "traditional_mostly_missed": old >= MANY_MISSED,
-        "improved_never_missed": new == 0,
-        "both_never_missed": (old == 0) & (new == 0),
-        "both_mostly_missed": (old >= MANY_MISSED) & (new >= MANY_MISSED),
-    }
-    return {name: share(mask.sum(), len(mask)) for name, mask in outcomes.items()}
+
+def choice(index: int, verdict: str, **judged: Any) -> dict[str, Any]:
+    """An arrangement of the lottery as a witness: its values and what was seen there."""
+    row = lottery_table().loc[index]
+    values = {field.name: _plain(row[field.name]) for field in fields(Layout)}
+    where = f"arrangement {index} of {LOTTERY.name}"
+    return {"choice": where, "verdict": verdict, "values": values, "judged": judged}
+
+
+def is_declared(table: pd.DataFrame) -> np.ndarray:
+    """Which arrangements lie within the declared ranges, (N,) of bool."""
+    inside = np.ones(len(table), dtype=bool)
+    for field in fields(Layout):
+        declared = REGISTRY.declared(f"xue.{field.name}", "range").range
+        if declared is not None:
+            inside &= table[field.name].between(*declared).to_numpy()
+    return inside
+
+
+def _plain(found: Any) -> Any:
+    return found.item() if isinstance(found, np.generic) else found
 
 
 def held_share(method: str = "traditional") -> Share:
     """Share of the runs that stand still which stay after small pushes too."""
     table = lottery_table()
     return share(table[f"{method}_held"].sum(), table[f"{method}_trapped"].sum())
+
+
+@memo()
+def comparison_table() -> pd.DataFrame:
+    """Starts in contact and paths, one row per arrangement of the lottery."""
+    return COMPARISON.load()
+
+
+def starts_clear() -> np.ndarray:
+    """Arrangements of the lottery in which no start of a trial touches an obstacle, (N,)."""
+    return (comparison_table()["touching_five_points"] == 0).to_numpy()
 
 
 def successful() -> pd.DataFrame:

@@ -4,38 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from ...errors import InputError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Role
-from ...planning.batch import plan_batch
+from ...ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result, Role, Rounds
 from ...tracking import memo
 from ...view.shares import Share, count_grid_figure, shares_figure
-from .layout import placed_slave
 from .motions import Case, slave_obstacles
+from .paired import mean_with_interval
 from .stored import (
-    MANY_MISSED,
     ablation_shares,
+    choice,
+    column_of,
+    held,
     held_share,
+    is_declared,
     lottery_shares,
+    lottery_table,
     missed,
+    outcomes_of_table_2,
     repeated_shares,
     virtual_point_counts,
 )
+from .trap_counts import METHODS_OF_TABLE_2, table_counts, text_counts
 from .trials import METHODS, PUSH, TRIALS, Outcome, run_methods, starts, summary, wilson
 
 checks = partial(REGISTRY.checks, page="xue/table2")
 
-#: Section 3.3, the text before Table 2: all ten improved runs succeed, the traditional method is
-#: trapped in eight.
-TEXT = {"traditional": "8", "improved": "0"}
-#: An outcome that shows in this share of the arrangements does not hang on what is not printed.
-DECISIVE = 0.95
-_REPEATS = 3
 MISS_LABEL = "share of trials that miss the goal"
 
 
@@ -69,12 +67,19 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
 @checks(
     "xue.tab02",
     rules=[
-        Bounded(key="missed.traditional", low=6, label="traditional runs of 10 that miss the goal"),
-        Bounded(key="missed.improved", high=1, label="improved runs of 10 that miss the goal"),
-        Bounded(
-            key="text_over_table",
-            low=1.0,
-            label="random arrangements with the text's outcome per one with the table's, at least",
+        Rounds(
+            key="held.traditional",
+            to="improved.trapped",
+            label="traditional runs of 10 held in a trap, against the entry of the other row",
+        ),
+        Rounds(
+            key="held.improved",
+            to="traditional.trapped",
+            label="improved runs of 10 held in a trap, against the entry of the other row",
+        ),
+        Exceeds(
+            key="text_less_table",
+            label="share of random arrangements with the text's outcome less that with the table's",
         ),
         Is(
             key="rows_agree_with_text",
@@ -87,33 +92,34 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
 )
 def both_methods(assumed: Assumed) -> Result:
     """Both readings of the print against ten trials, many trials and the lottery."""
-    trials, shares = assumed_trials(assumed), lottery_shares(assumed["classical_method"])
-    printed = printed_counts()
-    many = repeated_shares()
-    text, table = shares["text"], shares["table"]
+    trials, reading = assumed_trials(assumed), assumed["classical_method"]
+    shares, shown = lottery_shares(reading), outcomes_of_table_2(reading)
+    difference = mean_with_interval(shown["text"].astype(float) - shown["table"])
+    rows, words, many = table_counts(), text_counts(), repeated_shares()
     return Result(
         obtained={
-            "reading_of_table": printed,
-            "reading_of_text": TEXT,
-            "rows_agree_with_text": printed == TEXT,
+            "reading_of_table": rows,
+            "reading_of_text": words,
+            "rows_agree_with_text": rows == words,
             **_counts(trials),
-            "text_over_table": text.low / table.high,
+            "text_less_table": difference,
             "many_trials": {
                 rule: {name: found._asdict() for name, found in methods.items()}
                 for rule, methods in many.items()
             },
             "lottery": {name: found._asdict() for name, found in shares.items()},
             "lottery_mean_missed": {
-                name: float(missed(name).mean())
-                for name in (assumed["classical_method"], "improved")
+                name: float(missed(name).mean()) for name in (reading, "improved")
             },
         },
         table=_trial_table(trials),
         caption=(
-            f"Print gives the 8 traps to the improved method, the text to the traditional one. "
-            f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds, the outcome of "
-            f"the text (at least {MANY_MISSED} traditional, no improved runs missed) shows in "
-            f"{_percent(text)}, that of the table in {_percent(table)}. {_likelier(text, table)}"
+            f"The rows print {rows['improved']} traps for the improved and {rows['traditional']} "
+            f"for the traditional method, the text {words['improved']} and "
+            f"{words['traditional']}. {_sentence(trials)} Over random arrangements in which Fig. 9 "
+            f"holds, the outcome of the text (at least {max(words.values())} traditional runs held "
+            f"in a trap, no improved run missed) shows in {_percent(shares['text'])}, that of the "
+            f"table in {_percent(shares['table'])}. {_likelier(difference)}"
         ),
         alt=(
             "Bars with intervals: share of trials that miss, per method and rule of the joint step."
@@ -126,14 +132,7 @@ def both_methods(assumed: Assumed) -> Result:
     "xue.claim_success_10",
     rules=[
         Is(key="trials", to="trials", label="number of runs"),
-        Bounded(key="missed.improved", high=0, label="improved runs of 10 that miss the goal"),
-        Bounded(
-            key="lottery.low",
-            low=DECISIVE,
-            label=(
-                "random arrangements in which all ten succeed, lower bound; else a printed layout"
-            ),
-        ),
+        Is(key="successes", to="successes", label="improved runs that arrive"),
     ],
     samples=32,
 )
@@ -142,16 +141,18 @@ def improved_succeeds(assumed: Assumed) -> Result:
     trials = assumed_trials(assumed)
     found = lottery_shares(assumed["classical_method"])["improved_never_missed"]
     virtual = virtual_point_counts()
+    arrived = None if trials is None else TRIALS - trials.improved.missed
     return Result(
         obtained={
             "trials": TRIALS,
+            "successes": "all" if arrived == TRIALS else arrived,
             **_counts(trials),
             "lottery": found._asdict(),
             "virtual_point": virtual,
         },
         caption=(
             f"{_sentence(trials)} Over random arrangements in which Fig. 9 holds all ten improved "
-            f"runs succeed in {_percent(found)}: the arrangement, which is not printed, decides. "
+            f"runs succeed in {_percent(found)}. "
             f"In {virtual['used']} of {virtual['runs']} runs there the virtual point acted, in "
             f"{virtual['rescued']} of these the goal was then reached."
         ),
@@ -167,127 +168,86 @@ def improved_succeeds(assumed: Assumed) -> Result:
     "xue.claim_trapped_8",
     rules=[
         Is(key="trials", to="trials", label="number of runs"),
-        Bounded(key="missed.traditional", low=6, label="traditional runs of 10 that miss the goal"),
-        Bounded(key="unproved", high=0, label="runs called trapped whose gradient does not vanish"),
-        Bounded(
-            key="lottery.low",
-            low=DECISIVE,
-            label=(
-                "random arrangements with at least 7 of 10 missed, lower bound; else a printed "
-                "layout"
-            ),
+        Rounds(
+            key="held.traditional",
+            to="trapped",
+            label="traditional runs that stand still and stay after small pushes",
         ),
+        Bounded(key="unproved", high=0, label="runs called trapped whose gradient does not vanish"),
     ],
     samples=32,
 )
 def traditional_trapped(assumed: Assumed) -> Result:
     """Ten runs of the traditional method, and the same over random arrangements."""
     trials, reading = assumed_trials(assumed), assumed["classical_method"]
-    found = lottery_shares(reading)["traditional_mostly_missed"]
+    found = lottery_shares(reading)["traditional_mostly_held"]
     old = None if trials is None else trials.traditional
-    unproved = None if old is None else old.trapped - old.stationary
-    gradient = None if trials is None else trials.traditional.gradient
+    witnesses = trapped_witnesses(reading)
+    shown = (
+        f" One that shows just what the text says is {witnesses[0]['choice']}." if witnesses else ""
+    )
     return Result(
         obtained={
             "trials": TRIALS,
             **_counts(trials),
-            "unproved": unproved,
-            "largest_gradient": gradient,
+            "unproved": None if old is None else old.trapped - old.stationary,
+            "largest_gradient": None if old is None else old.gradient,
             "lottery": found._asdict(),
         },
         caption=(
             f"{_sentence(trials)} {_certified(trials)}"
-            f"Over random arrangements at least {MANY_MISSED} of 10 miss in {_percent(found)}; of "
-            f"the traditional runs that stand still there pushes leave {_percent(held_share())}."
+            f"Over random arrangements at least {max(text_counts().values())} of 10 are held in "
+            f"{_percent(found)}; of the traditional runs that stand still there pushes leave "
+            f"{_percent(held_share(column_of(reading)))}.{shown}"
         ),
         alt=(
             "Grid of counts: traditional runs that miss over improved runs that miss, per random "
             "arrangement; the printed pair is framed."
         ),
         figure=lambda: _lottery_figure(reading),
+        witnesses=witnesses,
     )
 
 
-@checks(
-    "xue.claim_times",
-    rules=[
-        Bounded(
-            key="step_ratio", low=1.0, label="steps of the traditional over the improved method"
-        ),
-        NoOriginal(key="computer", label="the computer and which runs are timed"),
-    ],
-    samples=32,
-)
-def times(assumed: Assumed) -> Result:
-    """Steps of both methods, which do not depend on the machine, and times measured here."""
-    trials, timed = assumed_trials(assumed), assumed["timed_runs"]
-    exchange = assumed["table2_exchange"]
-    steps = _steps(trials, timed)
-    old, new = steps["traditional"], steps["improved"]
-    ratio = None if not (old and new) else old / new
-    printed = REGISTRY.printed("xue.claim_times")
-    labels = "as printed" if exchange == "trap_column" else "exchanged"
-    printed_ratio = float(printed["traditional"]) / float(printed["improved"])
-    return Result(
-        obtained={
-            "mean_steps": steps,
-            "step_ratio": ratio,
-            "printed_ratio": printed_ratio if exchange == "trap_column" else 1.0 / printed_ratio,
-        },
-        measured={} if trials is None else _milliseconds(Case.of(assumed), assumed),
-        caption=(
-            f"Over {timed} runs the traditional method makes {_number(old)} steps on average and "
-            f"the improved one {_number(new)}. With the labels {labels} the printed times have a "
-            f"ratio of {printed_ratio:.2f}. A run that ends in a trap adds the steps of the trap "
-            "detection, so the order follows from what is counted as a planning time, which is "
-            "not printed."
-        ),
+def trapped_witnesses(reading: str) -> list[dict[str, Any]]:
+    """A declared arrangement of the lottery with the outcome of the text, if there is one.
+
+    As many traditional runs as the text prints are held, all where the gradient vanishes, and no
+    other is missed; no improved run misses.
+    """
+    table, words, name = lottery_table(), text_counts(), column_of(reading)
+    shown = (
+        is_declared(table)
+        & (held(reading) == words["traditional"])
+        & (missed(reading) == words["traditional"])
+        & (missed("improved") == words["improved"])
+        & (table[f"{name}_stationary"] == table[f"{name}_trapped"]).to_numpy()
     )
-
-
-def printed_counts() -> dict[str, str]:
-    """The trap column of Table 2 by row, as printed."""
-    printed = REGISTRY.printed("xue.tab02")
-    return {name: printed[name]["trapped"] for name in TEXT}
+    return [
+        choice(
+            int(k),
+            "holds",
+            held={"traditional": int(held(reading)[k]), "improved": int(held("improved")[k])},
+            missed={"traditional": int(missed(reading)[k]), "improved": int(missed("improved")[k])},
+        )
+        for k in np.flatnonzero(shown)[:1]
+    ]
 
 
 def _counts(trials: Trials | None) -> dict[str, Any]:
     if trials is None:
-        return {"missed": {"traditional": None, "improved": None}}
+        nothing = dict.fromkeys(METHODS_OF_TABLE_2)
+        return {"missed": nothing, "held": nothing}
     return {
-        "missed": {name: getattr(trials, name).missed for name in TEXT},
-        "trapped": {name: getattr(trials, name).trapped for name in TEXT},
-        "stationary": {name: getattr(trials, name).stationary for name in TEXT},
-        "held": {name: getattr(trials, name).held for name in TEXT},
+        "missed": {name: getattr(trials, name).missed for name in METHODS_OF_TABLE_2},
+        "trapped": {name: getattr(trials, name).trapped for name in METHODS_OF_TABLE_2},
+        "stationary": {name: getattr(trials, name).stationary for name in METHODS_OF_TABLE_2},
+        "held": {name: getattr(trials, name).held for name in METHODS_OF_TABLE_2},
         "virtual_point_used": trials.improved.used,
-        "intervals": {name: list(wilson(getattr(trials, name).missed, TRIALS)) for name in TEXT},
+        "intervals": {
+            name: list(wilson(getattr(trials, name).missed, TRIALS)) for name in METHODS_OF_TABLE_2
+        },
     }
-
-
-def _steps(trials: Trials | None, timed: str) -> dict[str, float | None]:
-    field = "steps_reached" if timed == "successful" else "steps_all"
-    return {
-        name: None
-        if trials is None or np.isnan(getattr(getattr(trials, name), field))
-        else getattr(getattr(trials, name), field)
-        for name in TEXT
-    }
-
-
-def _milliseconds(case: Case, assumed: Assumed) -> dict[str, float]:
-    """Mean time per run, planning only, best of some repeats [ms]."""
-    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
-    rng = np.random.default_rng(assumed["trial_seed"])
-    begin = starts(case, assumed["trial_perturbation"], TRIALS, rng)
-    found = {}
-    for name in TEXT:
-        settings, best = METHODS[name].settings(case), np.inf
-        for _ in range(_REPEATS):
-            since = perf_counter()
-            plan_batch(placed, begin, placed.goal, obstacles, settings)
-            best = min(best, perf_counter() - since)
-        found[f"ms_per_run_{name}"] = 1e3 * best / TRIALS
-    return found
 
 
 def _sentence(trials: Trials | None) -> str:
@@ -303,13 +263,17 @@ def _percent(found: Share) -> str:
     return f"{found.value:.1%} (95 % interval {found.low:.1%} to {found.high:.1%})"
 
 
-def _likelier(text: Share, table: Share) -> str:
+def _likelier(difference: Mapping[str, float]) -> str:
     """What the lottery says between the two readings."""
-    if text.low > table.high:
+    if difference["low"] > 0.0:
         return "The text's reading is the likelier one."
-    if table.low > text.high:
+    if difference["high"] < 0.0:
         return "The table's reading is the likelier one."
-    return "The intervals overlap: the lottery does not tell the two readings apart."
+    return (
+        f"The difference, {100 * difference['value']:.1f} points (95 % interval "
+        f"{100 * difference['low']:.1f} to {100 * difference['high']:.1f}), does not tell the two "
+        "readings apart."
+    )
 
 
 def _named(shares: Mapping[str, Mapping[str, Share]]) -> dict[str, dict[str, Share]]:
@@ -328,22 +292,20 @@ def _certified(trials: Trials | None) -> str:
     return (
         f"Of {found.trapped} that stand still {found.stationary} are certified to do so where the "
         f"gradient vanishes (|dU/dq| at most {found.gradient:.1e}), and {found.held} stay there "
-        f"after pushes of {PUSH:g} rad: the others rest on a saddle. "
+        f"after pushes of {PUSH:g} rad"
+        + (": the others rest on a saddle. " if found.held < found.trapped else ". ")
     )
-
-
-def _number(value: float | None) -> str:
-    return "no" if value is None else f"{value:.0f}"
 
 
 def _trial_table(trials: Trials | None) -> pd.DataFrame | None:
     if trials is None:
         return None
-    table, rows = printed_counts(), []
-    for name in TEXT:
+    table, words, rows = table_counts(), text_counts(), []
+    for name in METHODS_OF_TABLE_2:
         found = getattr(trials, name)
         low, high = wilson(found.missed, found.runs)
-        readings = {"text": TEXT[name], "table": table[name]}
+        seconds = REGISTRY.printed("xue.tab02")[name]["mean_time"]
+        readings = {"text": words[name], "table": table[name], "printed_time_s": float(seconds)}
         interval = {"missed_low": low, "missed_high": high}
         rows.append({"method": name, **readings, **found._asdict(), **interval})
     return pd.DataFrame(rows)
@@ -356,5 +318,5 @@ def _lottery_figure(reading: str) -> Any:
         counts,
         "improved runs of 10 that miss",
         "traditional runs of 10 that miss",
-        tuple(int(TEXT[name]) for name in ("traditional", "improved")),
+        tuple(text_counts()[name] for name in METHODS_OF_TABLE_2),
     )

@@ -123,7 +123,12 @@ def slave_collides(assumed: Assumed) -> Result:
             "Attracted only, the slave's end effector "
             + _in_bar(found["flange_window"])
             + f" and comes within {found['flanges_apart']:.3f} m of the master's at step "
-            f"{found['nearest_step']} of {found['steps']}, both moving at the same time."
+            f"{found['nearest_step']} of {found['steps']}, "
+            + (
+                "on its arrival at End."
+                if found["nearest_step"] == found["steps"]
+                else "both moving at the same time."
+            )
         ),
         alt=(
             "Tracks of both end effectors in space; the slave's solid track runs through a bar of "

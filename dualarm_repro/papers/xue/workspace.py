@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ...arms import Arm
+from ...arms.angle import Angle
 from ...arms.occupancy import Occupancy, occupancy, rotation_volumes
 from ...arms.overlap import Overlap, overlap
 from ...arms.workspace import extents, sample_workspace, voxel_volume
@@ -17,7 +18,15 @@ from ...tracking import memo
 from ...view.clouds import cloud_figure, volume_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE
-from .scenario import MASTER_START, SEED, WORKSPACE_POINTS, arm_in_use, base_placements
+from .readings import reach
+from .scenario import (
+    MASTER_START,
+    SEED,
+    WORKSPACE_POINTS,
+    arm_in_use,
+    base_placements,
+    matrices_robot,
+)
 
 checks = partial(REGISTRY.checks, page="xue/workspace")
 
@@ -26,7 +35,21 @@ VOXELS = (0.3, 0.2, 0.1, 0.05)
 _CELL = 0.02  # of the occupancy behind the overlap
 _TEST_POINTS = 100_000
 _REPEATS = 5
+_ROUND_OFF = 1e-9  # [m]
 _SHOWN = 4000  # points of a cloud in the 3-D scene
+
+
+@memo()
+def arm_of(joint_ranges: str, upper_arm: float) -> Arm:
+    """The arm with the joint ranges of a public source, or with full turns of every joint."""
+    if joint_ranges != "full_turns":
+        return arm_in_use(joint_ranges, upper_arm)
+    robot = matrices_robot()
+    turn = {"lower": Angle.parse("-180 deg"), "upper": Angle.parse("180 deg")}
+    joints = [joint.model_copy(update=turn) for joint in robot.joints]
+    joints[2] = joints[2].model_copy(update={"a": upper_arm})
+    name = f"es165d-full-turns-{upper_arm:g}"
+    return Arm.from_dh(name, robot.model_copy(update={"joints": joints}))
 
 
 @memo()
@@ -38,7 +61,7 @@ def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
 @memo()
 def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
     """Overlap of master and mirrored slave."""
-    master = arm_in_use(joint_ranges, upper_arm)
+    master = arm_of(joint_ranges, upper_arm)
     left, right = base_placements(distance)
     slave = _slave(master)
     maps = (_reached(master), _reached(slave))
@@ -60,18 +83,23 @@ def _slave(master: Arm) -> Arm:
     samples=32,
     rules=[
         Is(key="points", to="points", label="number of random points"),
-        Bounded(key="beyond_reach", high=0.0, label="points beyond the largest possible reach"),
+        Bounded(
+            key="beyond_reach",
+            high=0,
+            label="points farther than the arm of matrices (2)-(7) reaches without joint limits",
+        ),
         NoOriginal(key="extents", label="the joint ranges or the extents of the cloud"),
     ],
 )
 def master_cloud(assumed: Assumed) -> Result:
     """Cloud of the master, its extents, and its volume two ways."""
-    arm = arm_in_use(assumed["joint_ranges"], assumed["upper_arm"])
+    arm = arm_of(assumed["joint_ranges"], assumed["upper_arm"])
     points = cloud(arm, WORKSPACE_POINTS)
     size = extents(points)
     body = rotation_volumes(arm, CELLS, SEED)
     voxels = voxel_volume(points, VOXELS)
-    stretched = float(np.linalg.norm(arm.chain.translation, axis=1).sum())
+    farthest = np.linalg.norm(points, axis=1)
+    below = float(arm.fk(MASTER_START)[2, 3] - size.lower[2])
     table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
     seconds = _time_per_cloud(arm)
     return Result(
@@ -80,7 +108,8 @@ def master_cloud(assumed: Assumed) -> Result:
             "lower": size.lower.tolist(),
             "upper": size.upper.tolist(),
             "farthest": size.distance[1],
-            "beyond_reach": int(np.count_nonzero(np.linalg.norm(points, axis=1) > stretched)),
+            "beyond_reach": int(np.count_nonzero(farthest > reach("matrices") + _ROUND_OFF)),
+            "start_above_lowest": below,
             "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
             "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
         },
@@ -95,8 +124,13 @@ def master_cloud(assumed: Assumed) -> Result:
             f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from "
             f"the base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting "
             f"voxels of the cloud gives anything from {voxels[-1].volume:.0f} to "
-            f"{voxels[0].volume:.0f} m^3, depending on their size. "
-            "Neither joint ranges nor extents are printed to compare with."
+            f"{voxels[0].volume:.0f} m^3, depending on their size. The printed start of the master "
+            + (
+                f"lies {-below:.2f} m below the lowest point of this cloud. "
+                if below < 0.0
+                else "is no lower than this cloud. "
+            )
+            + "Neither joint ranges nor extents are printed to compare with."
         ),
         alt=(
             "Scatter of the flange positions of one arm in three dimensions, a body of rotation "
@@ -121,8 +155,10 @@ def monte_carlo_points(assumed: Assumed) -> Result:
 @checks(
     "xue.fig06",
     rules=[
-        Bounded(key="share_low", low=1e-4, label="lower 95 % bound of the share inside the other"),
-        Bounded(key="share_high", high=0.9999, label="upper 95 % bound of that share"),
+        Bounded(
+            key="share_low", low="resolved", label="lower 95 % bound of the share inside the other"
+        ),
+        Bounded(key="share_high", high="not_whole", label="upper 95 % bound of that share"),
     ],
     samples=32,
 )
@@ -130,7 +166,7 @@ def both_clouds(assumed: Assumed) -> Result:
     """Two independent clouds and the share of each inside the workspace of the other arm."""
     ranges, upper_arm = assumed["joint_ranges"], assumed["upper_arm"]
     distance, count = assumed["base_distance"], int(assumed["cloud_points"])
-    master = arm_in_use(ranges, upper_arm)
+    master = arm_of(ranges, upper_arm)
     slave = _slave(master)
     left, right = base_placements(distance)
     common = common_workspace(ranges, upper_arm, distance)
@@ -171,7 +207,8 @@ def both_clouds(assumed: Assumed) -> Result:
             f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud "
             f"lies in the slave's workspace (95 % interval {shares[0].low:.1%} to "
             f"{shares[0].high:.1%}) and {shares[1].value:.1%} of the slave's in the "
-            "master's: the clouds overlap in part."
+            "master's"
+            + (": the clouds overlap in part." if min(shares[0].low, shares[1].low) > 0.0 else ".")
         ),
         alt="Point clouds of two arms from above and from the front, overlapping in the middle.",
         figure=lambda: cloud_figure(clouds(), (MASTER, SLAVE)),
@@ -182,8 +219,10 @@ def both_clouds(assumed: Assumed) -> Result:
 @checks(
     "xue.claim_overlap",
     rules=[
-        Bounded(key="volume_low", low=1e-3, label="lower 95 % bound of the common volume [m^3]"),
-        Bounded(key="share_high", high=0.9999, label="no workspace lies wholly inside the other"),
+        Bounded(key="share_low", low="resolved", label="lower 95 % bound of the smaller share"),
+        Bounded(
+            key="share_high", high="not_whole", label="no workspace lies wholly inside the other"
+        ),
     ],
     samples=64,
 )
@@ -197,11 +236,13 @@ def partial_overlap(assumed: Assumed) -> Result:
             "volume": volume.value,
             "volume_low": volume.low,
             "volume_high": volume.high,
+            "share_low": min(common.first_in_second.low, common.second_in_first.low),
             "share_high": max(common.first_in_second.high, common.second_in_first.high),
         },
         caption=(
             f"With the bases {distance:g} m apart the workspaces share {volume.value:.2f} m^3 "
-            f"(95 % interval {volume.low:.2f} to {volume.high:.2f}), so the arms can collide."
+            f"(95 % interval {volume.low:.2f} to {volume.high:.2f})"
+            + (", so the arms can collide." if volume.low > 0.0 else ".")
         ),
     )
 

@@ -1,0 +1,107 @@
+"""Values of the printed formulas (9)-(16): parsed from the ledger, never retyped.
+
+Where the ledger is wrong by a sign or a digit, so are these values; where a formula cannot be
+evaluated with the quantities it should hold, they are NaN and agree with nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ...errors import DataFileError
+from ...ledger import REGISTRY
+from ...ledger.formula import Formula, parse
+from ...planning.control_points import end_effector
+from ...planning.problem import Problem
+from ...tracking import memo
+from .scenario import GAINS
+
+#: Step of central differences of a printed potential [m] or [rad].
+STEP = 1e-5
+
+
+def value(item: str, side: int, given: Mapping[str, Any]) -> Any:
+    """Value of one side of what an equation prints; NaN where it cannot be evaluated."""
+    try:
+        return _parsed(REGISTRY.printed(f"xue.{item}")["formula"]).value(side, given)
+    except (DataFileError, IndexError, TypeError, ValueError):
+        return np.nan
+
+
+@memo()
+def _parsed(text: str) -> Formula:
+    return parse(text)
+
+
+def attraction(x: np.ndarray, goal: np.ndarray, gain: float = GAINS["k_a"]) -> float:
+    """Right side of (9) at the position ``x`` (3,)."""
+    return _number(value("eq09", 1, {"k_a": gain, "X": x, "X_g": goal}))
+
+
+def repulsion(item: str, distances: np.ndarray, *, nearest: bool) -> np.ndarray:
+    """Right side of (10) or (14) for signed distances (N, K, M) to M shapes, (N, K).
+
+    The potentials of the shapes are added, or only that of the nearest shape counts.
+    """
+    if nearest:
+        distances = distances.min(axis=2, keepdims=True)
+    name = {"eq10": "d", "eq14": "d_i"}[item]
+    found = [
+        _number(value(item, 1, {"k_r": GAINS["k_r"], "d_0": GAINS["d_0"], name: float(d)}))
+        for d in distances.ravel()
+    ]
+    return np.reshape(found, distances.shape).sum(axis=2)
+
+
+def repulsive_force(d: float, dd: np.ndarray) -> np.ndarray:
+    """Last side of (12), for a distance d with the gradient ``dd`` (n,)."""
+    given = {"k_r": GAINS["k_r"], "d_0": GAINS["d_0"], "d": d, "dd": dd, "dX": 1.0}
+    return np.broadcast_to(np.asarray(value("eq12", 2, given), dtype=float), dd.shape)
+
+
+def new_attraction(
+    x: np.ndarray,
+    goal: np.ndarray,
+    theta: np.ndarray,
+    theta_goal: np.ndarray,
+    gain: float = GAINS["k_a"],
+) -> float:
+    """Right side of (13) at a position (3,) and at angles (6,)."""
+    given = {"k_a": gain, "X": x, "X_g": goal, "theta_i": theta, "theta_gi": theta_goal}
+    return _number(value("eq13", 1, given))
+
+
+def new_attractions(made: Problem, q: np.ndarray) -> np.ndarray:
+    """(13) of a problem at configurations (N, 6)."""
+    flange = end_effector(made.placed, q)
+    pairs = zip(flange, q, strict=True)
+    return np.array([new_attraction(x, made.goal_point, row, made.goal) for x, row in pairs])
+
+
+def summed(per_point: np.ndarray) -> np.ndarray:
+    """Right side of (15) for the potentials of the points (N, K)."""
+    return np.array([_number(value("eq15", 1, {"U_rep_i": row})) for row in per_point])
+
+
+def summands() -> float:
+    """How many terms (15) sums: its value where every term is one."""
+    return _number(value("eq15", 1, {"U_rep_i": np.ones(100)}))
+
+
+def total(attractive: np.ndarray, repulsive: np.ndarray) -> np.ndarray:
+    """Right side of (16), (N,)."""
+    given = {"U_aat_star": attractive, "U_rep_star": repulsive}
+    return np.broadcast_to(np.asarray(value("eq16", 1, given), dtype=float), attractive.shape)
+
+
+def slope(function: Callable[[np.ndarray], float], x: np.ndarray) -> np.ndarray:
+    """Gradient of a scalar function by central differences, of the shape of ``x`` (n,)."""
+    shifts = STEP * np.eye(len(x))
+    return np.array([(function(x + e) - function(x - e)) / (2.0 * STEP) for e in shifts])
+
+
+def _number(found: Any) -> float:
+    return float(found) if np.ndim(found) == 0 else np.nan

@@ -1,0 +1,73 @@
+"""Mutants of a small tree: killed by a test, by the time limit, excused, or alive."""
+
+import mutation_run
+import pytest
+
+SOURCE = '''"""A room."""
+def twice(x):
+    return 2 * x
+def count(n):
+    while n > 0:
+        n = n - 1
+    return n
+def idle(x):
+    return x + 5 if x is None else x
+'''
+TESTS = """from dualarm_repro.arms.m import count, idle, twice
+def test_twice(): assert twice(3) == 6
+def test_count(): assert count(2) == 0
+def test_idle(): assert idle(1) == 1
+def test_that_fails_anyway(): assert False
+"""
+
+
+@pytest.fixture
+def tree(tmp_path, monkeypatch):
+    root = tmp_path / "root"
+    for name in ("dualarm_repro/arms", "tests/arms", "data", "tools"):
+        (root / name).mkdir(parents=True)
+    (root / "dualarm_repro" / "__init__.py").write_text("")
+    (root / "dualarm_repro" / "arms" / "m.py").write_text(SOURCE)
+    (root / "tests" / "arms" / "test_m.py").write_text(TESTS)
+    (root / "pyproject.toml").write_text("")
+    (root / "CITATION.cff").write_text("")
+    monkeypatch.setattr(mutation_run, "ROOT", root)
+    monkeypatch.setattr(mutation_run, "ROOMS", ("dualarm_repro/arms",))
+    monkeypatch.setattr(mutation_run, "TEST_LIMIT", 3)
+    known = [
+        {
+            "file": "dualarm_repro/arms/m.py",
+            "text": "return x + 5 if x is None else x",
+            "old": "5",
+            "new": "6",
+            "reason": "nothing adds to nothing",
+        }
+    ]
+    monkeypatch.setattr(mutation_run, "equivalents", lambda: known)
+    return root
+
+
+def test_what_kills_each(tree, tmp_path):
+    rows = list(mutation_run.run(tmp_path / "work", per_room=99, limit=99))
+    fate = {(r["line"], r["old"], r["new"]): r["killed_by"] or r["equivalent"] for r in rows}
+    test = "test tests/arms/test_m.py::test_"
+    assert fate == {
+        (3, "2", "3"): f"{test}twice",
+        (3, "*", "/"): f"{test}twice",
+        (5, ">", "<="): f"{test}count",
+        (5, "0", "1"): f"{test}count",
+        (6, "-", "+"): "time limit",
+        (6, "1", "2"): None,
+        (9, "+", "-"): None,
+        (9, "5", "6"): "nothing adds to nothing",
+    }
+    assert (tmp_path / "work" / "tree" / "dualarm_repro" / "arms" / "m.py").read_text() == SOURCE
+
+
+def test_the_list_of_equivalent_mutants_names_mutants_that_exist():
+    from dualarm_repro.ledger.trust.mutants import mutants
+
+    for entry in mutation_run.equivalents():
+        drawn = mutants(mutation_run.ROOT, entry["file"])
+        assert [m for m in drawn if mutation_run.excused(m, [entry])], entry
+        assert len(entry["reason"]) > 10

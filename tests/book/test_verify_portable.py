@@ -1,0 +1,103 @@
+"""Settings change the machine code that runs, and what moves under one is reported."""
+
+import json
+import subprocess
+import sys
+
+import machine_code
+import pytest
+import verify_portable
+from machine_code import Setting, settings
+
+SETTINGS = {setting.name: setting for setting in settings()}
+PARTS = [name for name in SETTINGS if name not in ("nominal", "everything")]
+
+
+@pytest.fixture
+def machine(tmp_path):
+    """The machine code that a process under a setting reports, with no item computed."""
+    return lambda name: verify_portable.outcomes(SETTINGS[name], [], tmp_path)["machine"]
+
+
+def test_nominal_is_this_process(machine):
+    assert machine("nominal") == machine_code.probe()
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_a_part_takes_effect_and_leaves_the_rest(name, machine):
+    here, there = machine_code.probe(), machine(name)
+    setting = SETTINGS[name]
+    assert setting.without_effect(there) == []
+    assert {key for key in here if here[key] != there[key]} == set(setting.changes)
+    assert setting.without_effect(here)
+
+
+def test_everything_takes_effect(machine):
+    there = machine("everything")
+    assert SETTINGS["everything"].without_effect(there) == []
+    assert there["numba"]["cpu"] == "generic"
+    assert not there["numba"]["fma"]
+    assert there["numpy"] == []
+    assert len(set(there["blas"].values())) <= 1
+
+
+def test_both_openblas_are_seen():
+    if machine_code.platform.machine() != "x86_64" or sys.platform != "linux":
+        pytest.skip("core types of OpenBLAS are read on Linux only")
+    assert set(machine_code.probe()["blas"]) == {"numpy.libs", "scipy.libs"}
+    cores = [name for name in SETTINGS if name.startswith("blas-")]
+    assert len(cores) == 2
+
+
+def test_a_setting_without_effect_fails(monkeypatch, capsys):
+    idle = Setting("idle", {}, {"numpy": machine_code.probe()["numpy"]})
+    monkeypatch.setattr(verify_portable, "settings", lambda: [idle])
+    assert verify_portable.main(["xue.eq01"]) == 1
+    out = capsys.readouterr().out
+    assert "no effect on numpy" in out
+    assert "1 checked,   0 drifted,   0 verdicts changed" in out
+
+
+def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
+    moved = {"verdict": "undecidable", "obtained": None, "proofs": {}}
+    made = {"machine": {}, "items": {"xue.eq01": moved}}
+    monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
+    assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
+    out = capsys.readouterr().out
+    assert "1 checked,   1 drifted,   1 verdicts changed" in out
+    assert "xue.eq01: verdict" in out
+
+
+def test_the_short_sample_holds_what_is_delicate(registry):
+    chosen = verify_portable.sample()
+    assert chosen == verify_portable.sample()
+    assert {key for key, item in registry.items.items() if item.tolerances} <= set(chosen)
+    assert len(chosen) == len(set(chosen))
+    assert set(chosen) <= set(registry.items)
+
+
+def test_spreads_name_what_moves():
+    runs = {
+        "a": {"i": {"obtained": {"x": 1.0, "y": 1.0, "n": 3, "s": "left", "z": 0.0}}},
+        "b": {"i": {"obtained": {"x": 1.0 + 1e-7, "y": 1.0 + 1e-12, "n": 4, "s": "right"}}},
+    }
+    rows = {row["path"]: row["relative"] for row in verify_portable.spreads(runs)}
+    assert set(rows) == {"i.obtained.x", "i.obtained.n", "i.obtained.s", "i.obtained.z"}
+    assert rows["i.obtained.x"] == pytest.approx(1e-7, rel=1e-3)
+    json.dumps(list(rows))
+
+
+def test_a_process_that_fails_is_reported(tmp_path):
+    with pytest.raises(RuntimeError, match="nominal: the process ended with"):
+        verify_portable.outcomes(SETTINGS["nominal"], ["xue.nothing"], tmp_path)
+
+
+def test_unknown_setting():
+    done = subprocess.run(
+        [sys.executable, verify_portable.__file__, "--setting", "abacus"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert "no setting ['abacus'] here; there are nominal" in done.stderr

@@ -1,0 +1,186 @@
+"""What a value depends on: every kind of dependency is seen, and nothing else is."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from dualarm_repro.datafiles import data_path
+from dualarm_repro.ledger import closure as found
+from dualarm_repro.ledger.closure import carries, closure, module_of
+from dualarm_repro.ledger.record import roots
+from dualarm_repro.ledger.versions import DISTRIBUTIONS, versions
+from dualarm_repro.papers import load
+from dualarm_repro.sources import Graph, graph
+from dualarm_repro.tracking import recording
+
+PACKAGE = Path(found.__file__).parents[1]
+#: Studies and items of every document, one kind of dependency each.
+STUDIES = sorted(load().studies)
+ITEMS = ("xue.fig08", "xue.tab02", "qiu.fig10", "patent.fig02", "pan.claim_optimum")
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("clone") / "dualarm_repro"
+    shutil.copytree(PACKAGE, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def digests(folder, roots_of):
+    tree = Graph(folder)
+    return {name: tree.digest(tree.closure(modules, carries)) for name, modules in roots_of.items()}
+
+
+def studied():
+    return {name: [module_of(study.compute)] for name, study in load().studies.items()}
+
+
+def edited(folder, module, change):
+    """Digests of all studies before and after one file is edited."""
+    path = folder.joinpath(*module.split(".")).with_suffix(".py")
+    text, before = path.read_text(encoding="utf-8"), digests(folder, studied())
+    path.write_text(change(text), encoding="utf-8")
+    try:
+        after = digests(folder, studied())
+    finally:
+        path.write_text(text, encoding="utf-8")
+    return {name for name in before if before[name] != after[name]}
+
+
+def test_every_file_of_a_closure_counts_and_no_other(clone):
+    tree, expected = Graph(clone), {}
+    for name, modules in studied().items():
+        for module in tree.closure(modules, carries):
+            expected.setdefault(module, set()).add(name)
+    for module in sorted(tree.files):
+        if tree.files[module].name != "__init__.py":
+            file = module.removeprefix("dualarm_repro.")
+            stale = edited(clone, file, lambda text: text + "\nEDITED = 1\n")
+            assert stale == expected.get(module, set()), module
+
+
+def test_own_body_kernel_and_setting(clone):
+    def body(text):
+        assert "def lottery_cell" in text
+        return text.replace("def lottery_cell(", "def lottery_cell (", 1)
+
+    lottery = module_of(load().studies["xue_lottery"].compute).removeprefix("dualarm_repro.")
+    assert "xue_lottery" in edited(clone, lottery, body)
+    kernels = edited(clone, "arms.kernels", lambda text: text.replace("0.0", "1e-300", 1))
+    assert kernels == set(STUDIES)
+    defaults = edited(clone, "planning.settings", lambda text: text + "\nX = 2\n")
+    assert {"xue_lottery", "qiu_fit"} <= defaults
+    assert not {name for name in defaults if name.startswith("pan")}
+
+
+def test_docstrings_comments_and_views_do_not_count(clone):
+    def comment(text):
+        return "# a comment\n" + text.replace('"""', '"""Reworded. ', 1)
+
+    assert edited(clone, "arms.kernels", comment) == set()
+    assert edited(clone, "view.style", lambda text: text.replace("#0072B2", "#0072B3")) == set()
+
+
+def test_drawings_depend_on_the_view_and_values_do_not():
+    compute = load().checkers["xue.fig08"].compute
+    values, drawn = closure([compute]), closure([compute], drawn=True)
+    assert not any(".view." in name for name in values.modules)
+    assert "dualarm_repro.view.style" in drawn.modules
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_stored_studies_are_up_to_date(name):
+    assert load().studies[name].status() == "up to date"
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_a_cell_runs_no_code_and_opens_no_file_outside_its_closure(name):
+    study = load().studies[name]
+    cells = study.cells()
+    called: set[str] = set()
+    names = {str(path): module for module, path in graph().files.items()}
+
+    def trace(frame, event, argument):
+        if event == "call" and (module := names.get(frame.f_code.co_filename)):
+            called.add(module)
+
+    sys.setprofile(trace)
+    try:
+        with recording() as opened:
+            study.cell(len(cells) - 1, cells[-1])
+    finally:
+        sys.setprofile(None)
+    outside = {one for one in called if not carries(one)} - set(study.code["modules"])
+    assert {one for one in outside if not one.endswith("__init__")} <= _packages()
+    assert opened <= study.meta()["inputs"].keys()
+
+
+def _packages():
+    """Packages whose ``__init__`` runs when one of their modules is imported."""
+    return {name for name, path in graph().files.items() if path.name == "__init__.py"}
+
+
+@pytest.mark.parametrize("item_id", ITEMS)
+def test_an_item_runs_no_code_outside_its_closure(item_id):
+    from dualarm_repro.ledger import evaluate
+
+    called: set[str] = set()
+    names = {str(path): module for module, path in graph().files.items()}
+
+    def trace(frame, event, argument):
+        if event == "call" and (module := names.get(frame.f_code.co_filename)):
+            called.add(module)
+
+    modules = closure([load().checkers[item_id].compute], roots(load(), item_id)).modules
+    sys.setprofile(trace)
+    try:
+        evaluate(load(), item_id)
+    finally:
+        sys.setprofile(None)
+    assert {one for one in called if not carries(one)} - set(modules) <= _packages()
+
+
+def test_robot_and_scene_files_are_inputs():
+    registry = load()
+    assert "robots/er16.yaml" in registry.studies["pan_evolution"].meta()["inputs"]
+    assert "robots/panda.yaml" in registry.studies["patent_tasks"].meta()["inputs"]
+    with recording() as opened:
+        registry.checkers["patent.fig01"]
+        from dualarm_repro.ledger import evaluate
+
+        evaluate(registry, "patent.eq_integration")
+    assert any(name.startswith("scenes/patent_") for name in opened)
+
+
+def test_an_edited_robot_makes_every_study_of_it_stale(monkeypatch, tmp_path):
+    registry = load()
+    data = tmp_path / "data"
+    shutil.copytree(data_path(), data)
+    robot = data / "robots" / "er16.yaml"
+    robot.write_text(
+        robot.read_text(encoding="utf-8").replace("0.6733", "0.9733"), encoding="utf-8"
+    )
+    monkeypatch.setattr(found, "data_path", lambda *parts: data.joinpath(*parts))
+    stale = {name for name, study in registry.studies.items() if study.status() != "up to date"}
+    assert stale == {name for name in STUDIES if name.startswith("pan_")}
+    assert "robots/er16.yaml changed" in registry.studies["pan_evolution"].status()
+
+
+def test_versions_reach_solvers_and_robots():
+    every = versions(graph().external(graph().files))
+    for name in ("numpy", "pin", "coal", "llvmlite", "daqp", "proxsuite", "piqp", "quadprog",
+                 "clarabel", "pymoo", "cma", "example-robot-data-loaders"):  # fmt: skip
+        assert every.get(name, "absent") != "absent", name
+    assert "matplotlib" not in closure([load().checkers["xue.eq02"].compute]).versions
+
+
+def test_every_imported_name_has_its_distribution():
+    from importlib.metadata import packages_distributions
+
+    known = packages_distributions()
+    for name in graph().external(graph().files):
+        behind = DISTRIBUTIONS.get(name, (name.replace("_", "-"),))
+        installed = {one.lower().replace("_", "-") for one in known.get(name, behind)}
+        assert set(behind) & installed, name

@@ -1,0 +1,118 @@
+"""Statements about one run and about the methods: existence, three answers, witnesses."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.ledger import Verdict, evaluate
+from dualarm_repro.ledger.settled import settle
+from dualarm_repro.papers.xue import stored, superiority, table_2
+from dualarm_repro.papers.xue.link_truth import arms_witnesses
+from dualarm_repro.papers.xue.paired import mean_with_interval
+from dualarm_repro.papers.xue.planning_times import printed_seconds
+
+
+def settled(registry, name):
+    return settle(registry, evaluate(registry, f"xue.{name}"), lambda _: "")
+
+
+def test_mean_with_interval():
+    found = mean_with_interval(np.array([1.0, -1.0, 1.0, -1.0]))
+    assert found["value"] == 0.0
+    assert found["high"] == -found["low"] == pytest.approx(1.96 * np.sqrt(4 / 3) / 2, abs=1e-3)
+    assert found["of"] == 4
+
+
+def test_traps_that_hold_are_possible_though_not_in_the_arrangement_shown(registry):
+    evaluation = evaluate(registry, "xue.claim_trapped_8")
+    assert evaluation.verdict is Verdict.NOT_REPRODUCED
+    found = settled(registry, "claim_trapped_8")
+    assert found.verdict is Verdict.UNDER_ASSUMPTION
+    (witness,) = [entry for entry in found.witnesses if entry["verdict"] == "holds"]
+    assert witness["judged"]["held"]["traditional"] == 8
+    assert witness["judged"]["missed"]["improved"] == 0
+
+
+def test_without_a_witness_held_traps_are_not_found(registry, monkeypatch):
+    monkeypatch.setattr(table_2, "trapped_witnesses", lambda reading: [])
+    monkeypatch.setattr("dualarm_repro.ledger.settled.stored", lambda *_: None)
+    assert settled(registry, "claim_trapped_8").verdict is Verdict.NOT_REPRODUCED
+
+
+def test_a_witness_lies_within_the_declared_ranges(registry):
+    (witness,) = table_2.trapped_witnesses("end_effector")
+    for name, value in witness["values"].items():
+        declared = registry.papers["xue"].assumptions[name]
+        if declared.range:
+            assert declared.range[0] <= value <= declared.range[1]
+        elif declared.choices:
+            assert value in declared.choices
+
+
+def test_whether_other_links_collide_has_a_witness_of_either_kind(registry):
+    holds, fails = arms_witnesses(0.12)
+    assert (
+        holds["judged"]["links_touch_at_radius"] > 0.12 >= fails["judged"]["links_touch_at_radius"]
+    )
+    assert settled(registry, "claim_only_tcp").verdict is Verdict.UNDECIDABLE
+
+
+def test_text_and_table_are_outcomes_that_exclude_each_other(registry):
+    found = stored.outcomes_of_table_2("end_effector")
+    assert not (found["text"] & found["table"]).any()
+    assert (found["text"] <= found["traditional_mostly_held"]).all()
+
+
+def test_times_change_places_with_the_labels():
+    as_printed, exchanged = printed_seconds("trap_column"), printed_seconds("row_labels")
+    assert as_printed["traditional"] == exchanged["improved"] == 0.53
+
+
+def test_superiority_turns_with_the_outcomes_of_the_lottery(registry, monkeypatch):
+    table = stored.lottery_table()
+    before = evaluate(registry, "xue.claim_better")
+    swapped = table.copy()
+    swapped["traditional_missed"] = table["improved_missed"]
+    swapped["improved_missed"] = table["traditional_missed"]
+    monkeypatch.setattr(superiority, "lottery_table", lambda: swapped)
+    after = evaluate(registry, "xue.claim_better")
+    for name in ("ability", "robustness"):
+        assert after.result.obtained[name]["low"] == -before.result.obtained[name]["high"]
+    assert after.verdict is Verdict.NOT_REPRODUCED
+
+
+def test_methods_that_do_alike_leave_superiority_open(registry, monkeypatch):
+    table = stored.lottery_table()
+    even, half = table.copy(), table.index % 2 == 0
+    even.loc[half, "traditional_missed"] = table.loc[half, "improved_missed"]
+    even.loc[half, "improved_missed"] = table.loc[half, "traditional_missed"]
+    monkeypatch.setattr(superiority, "lottery_table", lambda: even)
+    found = evaluate(registry, "xue.claim_better")
+    assert found.verdict is Verdict.UNDECIDABLE
+    assert {entry["verdict"] for entry in found.result.witnesses} == {"holds", "fails"}
+
+
+def test_points_with_a_length_are_not_joints_as_points(registry):
+    name = "xue.claim_joints_as_points"
+    assert evaluate(registry, name).verdict is Verdict.ADOPTED
+    assert evaluate(registry, name, {"control_points": "five_links"}).verdict is not Verdict.ADOPTED
+
+
+@pytest.mark.parametrize("sense", ["same_step", "same_tool_speed"])
+def test_speeds_are_equal_in_either_sense(registry, sense):
+    found = evaluate(registry, "xue.claim_equal_speed", {"equal_speed_meaning": sense})
+    assert found.verdict is Verdict.ADOPTED
+    assert found.result.obtained["other_difference"] > 0.1
+
+
+@pytest.mark.parametrize(
+    ("switching", "verdict"),
+    [("on_when_stuck", Verdict.REGENERATED), ("from_start", Verdict.NOT_REPRODUCED)],
+)
+def test_flow_turns_to_the_virtual_point_only_in_a_trap(registry, switching, verdict):
+    found = evaluate(registry, "xue.fig07", {"virtual_switching": switching})
+    assert found.verdict is verdict
+
+
+def test_a_longer_upper_arm_exceeds_the_printed_reach(registry):
+    assert evaluate(registry, "xue.fig05").result.obtained["beyond_reach"] == 0
+    assert evaluate(registry, "xue.fig05", {"upper_arm": 1.15}).verdict is Verdict.NOT_REPRODUCED

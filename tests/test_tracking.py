@@ -1,0 +1,46 @@
+"""Inputs are noted, also where a memo answers."""
+
+from dualarm_repro import load_arm
+from dualarm_repro.tracking import memo, note, recording
+
+
+def test_recordings_nest():
+    with recording() as outer:
+        note("a")
+        with recording() as inner:
+            note("b")
+        note("c")
+    note("d")
+    assert (outer, inner) == ({"a", "b", "c"}, {"b"})
+
+
+def test_an_answer_from_memory_notes_its_inputs():
+    calls = []
+
+    @memo()
+    def inner(x):
+        calls.append(x)
+        note(f"file {x}")
+        return x
+
+    @memo(8)
+    def outer(x):
+        return inner(x) + inner(x + 1)
+
+    for _ in range(2):
+        with recording() as found:
+            assert outer(1) == 3
+        assert found == {"file 1", "file 2"}
+    assert calls == [1, 2]
+    with recording() as found:
+        inner(2)
+    assert found == {"file 2"}
+    inner.cache_clear()
+    inner(2)
+    assert calls == [1, 2, 2]
+
+
+def test_loading_an_arm_notes_its_files():
+    with recording() as found:
+        load_arm("es165d-slave")
+    assert found == {"robots/es165d-slave.yaml", "robots/es165d.yaml"}

@@ -1,0 +1,89 @@
+"""Cards: badge with share, witnesses, search, picture of robustness, way to the code."""
+
+import re
+
+import pytest
+from bs4 import BeautifulSoup
+
+from dualarm_repro.ledger import record
+from dualarm_repro.view.badge import badge, percent
+from dualarm_repro.view.card import card_html, robustness_text
+from dualarm_repro.view.firmness import firmness_svg
+from dualarm_repro.view.wording import search_lines
+
+ROBUST = {
+    "holds": 0.05,
+    "samples": 32,
+    "interval": [0.01, 0.16],
+    "meets_print": {"share": 0.05, "interval": [0.01, 0.16]},
+    "flip": {"assumption": "width", "nominal": 1.0, "value": 1.5, "change": 0.1,
+             "verdict": "not-reproduced"},
+    "influence": {"width": 0.61, "shape<": 0.2},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def made(registry):
+    return record(registry, "xue.tab01")
+
+
+def test_badge_shows_the_share_of_what_is_only_possible():
+    text = badge("reproduced-under-assumption", ROBUST)
+    assert "reproduced-under-assumption, 5 %" in text
+    assert "1 to 16 %" in text
+    assert "%" not in badge("not-reproduced", ROBUST).split(">", 1)[1]
+    assert "%" not in badge("reproduced-under-assumption")
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.0, "0 %"), (0.004, "&lt; 1 %"), (0.5, "50 %"), (0.996, "&gt; 99 %"), (1.0, "100 %")],
+)
+def test_percent_says_all_or_nothing_only_where_it_is(share, text):
+    assert percent(share) == text
+
+
+def test_picture_has_a_bar_for_each_number():
+    svg = BeautifulSoup(firmness_svg(ROBUST), "html.parser")
+    bars = {t.get_text(): float(r["width"]) for t, r in zip(
+        svg.find_all("text", attrs={"text-anchor": "end"}),
+        [r for r in svg.find_all("rect") if r.get("fill")], strict=True)}  # fmt: skip
+    assert list(bars) == ["meets print", "width", "shape<"]
+    assert bars["width"] / bars["meets print"] == pytest.approx(0.61 / 0.05, rel=0.02)
+    assert "5 % of 32 draws" in svg.title.get_text()
+    assert svg.find("path", class_="whisker")
+    assert len(BeautifulSoup(firmness_svg({**ROBUST, "influence": {}}), "html.parser")("rect")) == 2
+
+
+def test_sentence_on_robustness():
+    text = robustness_text(ROBUST)
+    assert "Print is met in 5 % of 32 draws" in text
+    assert "width from 1 to 1.5, giving not-reproduced" in text
+    assert "No single change" in robustness_text({**ROBUST, "flip": None})
+
+
+def test_search_says_what_was_done_and_what_is_left():
+    nearest = {"choice": "draw 3", "values": {}, "miss": 0.25}
+    found = {"directed": False, "evaluations": 40, "nearest": nearest}
+    one, two = search_lines({"search": found, "seek": "a posture"})
+    assert "no directed search" in one
+    assert "40 evaluations" in one
+    assert "draw 3" in one
+    assert two == "Still to be sought: a posture"
+    assert search_lines({"search": None, "seek": None}) == []
+
+
+def test_card_leads_to_the_lines_that_decide(made):
+    soup = BeautifulSoup(card_html(made, "../"), "html.parser")
+    link = soup.select_one(".ledger-code a")
+    assert link["href"] == "../_modules/dualarm_repro/papers/xue/chain.html#table_1"
+    assert re.search(r"chain\.py:\d+ table_1", link.get_text())
+
+
+def test_card_shows_witnesses_thresholds_and_the_statement_that_decides(made):
+    witness = {"choice": "draw 4", "verdict": "holds", "values": {"width": 2.0}}
+    changed = {**made, "robustness": ROBUST, "witnesses": [witness], "decided_by": "toy.claim",
+               "thresholds": {"limit": {"value": 0.5, "reason": "half <"}}}  # fmt: skip
+    text = BeautifulSoup(card_html(changed), "html.parser").get_text(" ")
+    for words in ("draw 4", "width: 2", "toy.claim", "limit", "half <", "Print is met in 5 %"):
+        assert words in " ".join(text.split()), words
