@@ -17,7 +17,8 @@ _MIRROR = np.array([-1.0, 1.0, 1.0])
 _SAME = 1e-6  # relative difference of the fitness of two mirror images
 
 
-_KEPT = 512
+#: Answers kept: small ones of every draw, large ones of the last few.
+_SMALL, _LARGE = 4096, 16
 _BLOCKS = 64
 
 
@@ -29,7 +30,7 @@ class Survey(NamedTuple):
     status: np.ndarray
 
 
-@memo(_KEPT)
+@memo(_LARGE)
 def survey(job: Job, measure: Measure, box: Box) -> Survey:
     """Fitness and constraints on the grid from which the optimum is refined."""
     placement = job.placement(measure.reading())
@@ -46,7 +47,7 @@ def survey(job: Job, measure: Measure, box: Box) -> Survey:
     return Survey(points, np.concatenate(fitness), np.concatenate(status))
 
 
-@memo(_KEPT)
+@memo(_SMALL)
 def optimum(job: Job, measure: Measure, box: Box) -> Optimum:
     """Best position in the box; of two mirror images the one nearer to the printed point.
 
@@ -71,7 +72,7 @@ def nearer_image(found: Optimum, mirrored_fitness: float) -> Optimum:
     return found
 
 
-@memo(_KEPT)
+@memo(_LARGE)
 def solved(job: Job, position: tuple[float, float, float]) -> Jobs:
     """Joint paths and constraints of the job at one position."""
     return job.placement().jobs([position])

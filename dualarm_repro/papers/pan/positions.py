@@ -62,7 +62,7 @@ def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scen
     return job_scene(title, cell, jobs.q[0], centre, jobs.w[0], FULL_SCALE)
 
 
-@memo(512)
+@memo(4096)
 def extreme_position(job: Job, measure: Measure, box: Box, rule: str) -> Optimum:
     """Feasible position that a rule calls poor; NaN if no position of the grid is feasible.
 

@@ -27,7 +27,7 @@ _DRAWS = 16
 _DENSER = 10
 
 
-@memo(256)
+@memo(4096)
 def one_run(job: Job, measure: Measure, settings: Genetic, box: Box) -> Evolution:
     """One seeded run, as the document describes one."""
     return genetic.evolve(
