@@ -7,12 +7,17 @@ from . import (
     drawings,
     errata,
     evolution,
+    fit,
     geometry,
     measures,
     poor,
+    problem,
     result,
+    search_claims,
+    search_steps,
     sensitivity,
     studies,
+    system_measure,
 )
 
 __all__ = [
@@ -22,10 +27,15 @@ __all__ = [
     "drawings",
     "errata",
     "evolution",
+    "fit",
     "geometry",
     "measures",
     "poor",
+    "problem",
     "result",
+    "search_claims",
+    "search_steps",
     "sensitivity",
     "studies",
+    "system_measure",
 ]

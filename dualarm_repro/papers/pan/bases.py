@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, NoOriginal, Result, Role, Rounds
+from ...errors import DataFileError
+from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Result, Role
+from ...ledger.printed import rounds_to
 from ...welding import base_poses
+from .print_forms import printed_text
 from .scenario import placed_bases, printed_base_matrix, printed_bases
 
 checks = partial(REGISTRY.checks, page="pan/cell")
@@ -15,18 +19,17 @@ checks = partial(REGISTRY.checks, page="pan/cell")
 
 @checks(
     "pan.claim_bases",
-    samples=32,
     rules=[Adopts(key=name, to=name, label=f"{name} [m]") for name in ("base1", "base2", "base3")],
 )
 def positions(assumed: Assumed) -> Result:
     """Origins of the base frames that the cell uses."""
-    poses = placed_bases("inverted", assumed["base_orientation"])
+    poses = placed_bases(assumed["base_transform"], assumed["base_orientation"])
     used = dict(zip(("base1", "base2", "base3"), poses[:, :3, 3].tolist(), strict=True))
     spread = np.linalg.norm(printed_bases()[:, :2], axis=1)
     return Result(
         obtained=used,
         caption=(
-            "The three bases stand where the list puts them, at horizontal distances of "
+            f"{_places(poses[:, :3, 3])}, at horizontal distances of "
             f"{spread[0]:.3f}, {spread[1]:.3f} and {spread[2]:.3f} m from the origin of the world. "
             "Orientations are not printed for two of them; all are taken as parallel to the world."
         ),
@@ -35,39 +38,66 @@ def positions(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq_base",
-    samples=32,
     rules=[
-        Rounds(
-            key="matrix",
-            to="matrix",
-            tolerance=1e-12,
-            reason="entries of an input",
-            label="pose of base 1 in the world, as used",
-        ),
-        Bounded(
-            key="as_labelled",
-            low=0.1,
+        Adopts(key="matrix", to="matrix", label="pose of base 1 in the world, as used"),
+        Is(
+            key="labelled_is_listed",
+            value=False,
             role=Role.CONTRADICTS,
-            label="read as labelled, base 1 would stand off its listed position by [m]",
+            label="read as its label says, the matrix puts base 1 where the list has it",
         ),
     ],
 )
 def matrix(assumed: Assumed) -> Result:
     """The printed matrix as pose of base 1, and what follows from its label."""
-    printed = printed_base_matrix()
-    reading = assumed["base_transform"]
-    used = placed_bases(reading, assumed["base_orientation"])[0]
-    labelled = base_poses(printed[np.newaxis], "literal")[0, :3, 3]
+    printed, listed = printed_base_matrix(), REGISTRY.printed("pan.claim_bases")["base1"]
+    used = placed_bases(assumed["base_transform"], assumed["base_orientation"])[0]
+    reading = label_reading(printed_text("pan.eq_base", "label"))
+    labelled = base_poses(printed[np.newaxis], reading)[0, :3, 3] + 0.0
+    as_pose = _listed(base_poses(printed[np.newaxis], "inverted")[0, :3, 3], listed)
     gap = float(np.linalg.norm(labelled - printed_bases()[0]))
     return Result(
-        obtained={"matrix": used.tolist(), "as_labelled": gap},
+        obtained={
+            "matrix": used.tolist(),
+            "labelled_is_listed": _listed(labelled, listed) if as_pose else None,
+            "as_labelled": gap,
+        },
         caption=(
-            "The matrix has the listed position of base 1 as translation, so it is the pose of "
-            "the base in the world. Its label makes it the map from world to base; then base 1 "
+            f"As pose of base 1 in the world the matrix {'gives' if as_pose else 'does not give'} "
+            "the listed position. Its label makes it the "
+            f"{'map from world to base' if reading == 'literal' else 'pose'}; then base 1 "
             f"would stand at ({', '.join(f'{v:g}' for v in labelled)}) m, {gap:.2f} m away from "
             "the listed position."
         ),
     )
+
+
+def label_reading(label: str) -> str:
+    """How :func:`dualarm_repro.welding.base_poses` has to read a matrix of that label.
+
+    By (6) and (8) T_ab carries coordinates from b to a: T_B1w from the world to base 1.
+
+    Raises
+    ------
+    DataFileError
+        The label names no base and the world.
+    """
+    found = re.fullmatch(r"T_(B\d|w)(B\d|w)", label)
+    if not found or "w" not in found.groups() or found[1] == found[2]:
+        raise DataFileError("printed matrix", "label", label, "T_B1w or T_wB1")
+    return "literal" if found[2] == "w" else "inverted"
+
+
+def _listed(position: np.ndarray, listed: list[str]) -> bool:
+    """Whether a position rounds to the listed one."""
+    return all(rounds_to(float(v), text) for v, text in zip(position, listed, strict=True))
+
+
+def _places(positions: np.ndarray) -> str:
+    gap = np.linalg.norm(positions - printed_bases(), axis=1).max()
+    if gap < 1e-12:
+        return "The three bases stand where the list puts them"
+    return f"The three bases stand up to {gap:.2f} m from where the list puts them"
 
 
 @checks(

@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
+from ...errors import DataFileError
 from ...ledger import REGISTRY, Proof, evaluate
+from ...ledger.formula import parse
 from ...welding import base_poses
 from .nominal import nominal_values
-from .optimum import optimum
+from .optimum import SPACING, TOLERANCE, optimum
 from .positions import search_box
+from .print_forms import holds, printed_text
 from .scenario import (
     SEED,
     FlatSeam,
@@ -19,6 +22,7 @@ from .scenario import (
     printed_bases,
     stand_in,
 )
+from .system_measure import unit_powers
 
 
 @REGISTRY.proves("pan.base_transform")
@@ -37,15 +41,23 @@ def base_transform() -> Proof:
 
 @REGISTRY.proves("pan.eq14_size")
 def eq14_size() -> Proof:
-    """Size of the block-diagonal Jacobian for arms of m rows and n columns, in symbols."""
+    """Printed size against that of the printed blocks for arms of m rows and n columns."""
     m, n = sp.symbols("m n", positive=True, integer=True)
-    blocks = sp.BlockDiagMatrix(sp.MatrixSymbol("J1", m, n), sp.MatrixSymbol("J2", m, n))
-    rows, columns = blocks.shape
-    printed = (sp.Integer(12), m + n)
+    printed = [
+        _in_symbols(printed_text("pan.eq14", name), m=m, n=n) for name in ("rows", "columns")
+    ]
+    blocks = {f"J_{k}": sp.MatrixSymbol(f"J_{k}", m, n).shape for k in (1, 2)}
+    matrix = printed_text("pan.eq14", "matrix")
+    rows = sum(next(blocks[cell][0] for cell in row if cell in blocks) for row in matrix)
+    columns = sum(
+        next(blocks[cell][1] for cell in column if cell in blocks)
+        for column in zip(*matrix, strict=True)
+    )
     agree = sp.solve([rows - printed[0], columns - printed[1]], [m, n], dict=True)
     return Proof(
-        "the matrix has 2m rows and 2n columns; the printed size agrees for m = n = 6 only",
-        agree == [{m: 6, n: 6}],
+        "the printed blocks have 2m rows and 2n columns; the printed size agrees for m = n = 6 "
+        "only",
+        (rows, columns) == (2 * m, 2 * n) and agree == [{m: 6, n: 6}],
         {"size": f"{rows} x {columns}", "agrees_for": str(agree)},
     )
 
@@ -56,51 +68,53 @@ def eq13_size() -> Proof:
     found = evaluate(REGISTRY, "pan.eq13").result.obtained
     return Proof(
         "the product (12) exists for vectors of 2n and 2m entries and not for the printed sizes",
-        found["column_vectors"] and not found["as_printed"],
+        found["stacked"] and found["as_printed"] is False,
         found,
     )
 
 
 @REGISTRY.proves("pan.tight_loose_units")
 def tight_loose_units() -> Proof:
-    """Both terms of (16) under a change of the unit of length by a factor s."""
-    s, w1, w2, w3, b1, b2 = sp.symbols("s w1 w2 w3 beta1 beta2", positive=True)
-    terms = b1 * w1 * w2, b2 * w3
-    scaled = [
-        t.subs({w1: s**3 * w1, w2: s**3 * w2, w3: s**3 * w3}, simultaneous=True) for t in terms
-    ]
-    powers = [sp.degree(t, s) for t in scaled]
+    """The printed measures under a change of the unit of length, and the optimum in both."""
     values = nominal_values()
+    powers = unit_powers(values["arm"])
     job, box = Job.of(values), search_box(values)
     best = {
         unit: np.abs(optimum(job, Measure.of({**values, "length_unit": unit}), box).position)
         for unit in ("m", "mm")
     }
     moved = float(np.linalg.norm(best["m"] - best["mm"]))
+    terms = [round(powers[name][0], 9) for name in ("M_tight", "M_loose")]
     return Proof(
-        "with the unit of length the first term scales by the sixth power and the second by the "
-        "third; the best position in millimetres is another than in metres",
-        powers == [6, 3] and moved > 0.01,
-        {"powers": [int(p) for p in powers], "optimum_moves_m": moved},
+        "with the unit of length the terms of the printed (16) scale by different powers and "
+        "their sum by none; the best position in millimetres is another than in metres",
+        terms[0] != terms[1] and float(np.ptp(powers["MMR"])) > 0.0 and moved > SPACING / 2,
+        {"powers": terms, "optimum_moves_m": moved},
     )
 
 
 @REGISTRY.proves("pan.beta_cancels")
 def beta_cancels() -> Proof:
-    """(16) with beta_i = V / V_i, V common to all."""
+    """The printed (16) with beta_i = V / V_i, V common to all."""
     V, V1, V2, V3, tight, loose = sp.symbols("V V1 V2 V3 M_tight M_loose", positive=True)
+    text = printed_text("pan.eq16").split("=")[-1]
 
     def measure(common: sp.Expr) -> sp.Expr:
-        first, second = (common / V1 + common / V2) / 2, common / V3
-        return (first * tight + second * loose) / (first + second)
+        return _in_symbols(
+            text,
+            beta_1=(common / V1 + common / V2) / 2,
+            beta_2=common / V3,
+            M_tight=tight,
+            M_loose=loose,
+        )
 
     cancels = sp.simplify(measure(V) - measure(sp.Integer(1))) == 0
     free = V not in sp.simplify(measure(V)).free_symbols
-    numbers = evaluate(REGISTRY, "pan.claim_beta_rule").result.obtained
+    gap = evaluate(REGISTRY, "pan.claim_beta_rule").result.obtained["gap"]
     return Proof(
-        "the volume of the intersection cancels in (16), in symbols and in numbers",
-        bool(cancels and free and numbers["cancels"] < 1e-12),
-        {"largest_difference": numbers["cancels"]},
+        "the volume of the intersection cancels in the printed (16), in symbols and in numbers",
+        bool(cancels and free and gap < 1e-9),
+        {"largest_difference": gap},
     )
 
 
@@ -113,7 +127,7 @@ def constant_pose() -> Proof:
     return Proof(
         "no constant orientation lays all seam points flat: between two of them the workpiece "
         "turns",
-        turn > 10,
+        turn > 1e-6,
         {"largest_turn_deg": turn},
     )
 
@@ -125,13 +139,15 @@ def rank_condition() -> Proof:
     q = arm.random_configurations(10_000, np.random.default_rng(SEED))
     near = q[:100].copy()
     near[:, 4] = 1e-6
-    ranks, at_near = (np.linalg.matrix_rank(arm.jacobian(rows)) for rows in (q, near))
+    text = next(c for c in printed_text("pan.eq_opt", "subject_to") if c.startswith("Rank"))
+    names = {"Rank": np.linalg.matrix_rank, "min": min, "m": 6, "n": 6}
+    full, at_near = (holds(text, {**names, "J": arm.jacobian(rows)}) for rows in (q, near))
     smallest = float(arm.manipulability(near).max())
     return Proof(
-        "the rank is full at every one of 10 000 random configurations and stays full a "
+        "the printed condition holds at every one of 10 000 random configurations and still a "
         "millionth of a radian from a wrist singularity, where the arm can hardly move",
-        bool((ranks == 6).all() and (at_near == 6).all() and smallest < 1e-5),
-        {"full_rank": int((ranks == 6).sum()), "largest_measure_near_singularity": smallest},
+        full and at_near and smallest < nominal_values()["singularity_threshold"],
+        {"near_a_singularity": at_near, "largest_measure_there": smallest},
     )
 
 
@@ -145,7 +161,7 @@ def ellipsoid_axes() -> Proof:
     return Proof(
         "absolute eigenvalues of the Jacobian differ from its singular values; only their "
         "products agree",
-        bool(abs(singular - eigen).max() > 0.01 and np.isclose(singular.prod(), eigen.prod())),
+        bool(not np.allclose(singular, eigen) and np.isclose(singular.prod(), eigen.prod())),
         {"singular_values": singular.tolist(), "absolute_eigenvalues": eigen.tolist()},
     )
 
@@ -162,6 +178,21 @@ def no_certificate() -> Proof:
     return Proof(
         "the mirror image of the optimum in the plane x = 0 has the same fitness, so that the "
         "maximum is taken twice",
-        bool(abs(fitness / best.fitness - 1) < 1e-6 and apart > 0.01),
+        bool(abs(fitness / best.fitness - 1) < 1e-6 and apart > TOLERANCE),
         {"fitness": best.fitness, "of_the_image": fitness, "apart_m": apart},
     )
+
+
+def _in_symbols(text: str, **values: sp.Expr) -> sp.Expr:
+    """A printed expression with its names replaced by symbols or expressions that commute.
+
+    Raises
+    ------
+    DataFileError
+        It holds another name.
+    """
+    expression = parse(text).sides[0]
+    names = {symbol: values.get(str(symbol)) for symbol in expression.free_symbols}
+    if None in names.values():
+        raise DataFileError("printed formula", "text", text, f"the names {', '.join(values)}")
+    return expression.subs(names, simultaneous=True)

@@ -8,10 +8,13 @@ import numpy as np
 import pandas as pd
 import sympy as sp
 
+from ...errors import DataFileError
 from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger.formula import parse
 from ...view.pipe_seam import pipes_figure, seam_figure
-from ...welding import WELDER
+from ...welding import WELDER, saddle_seam
 from .coordination import at_display
+from .print_forms import printed_text
 from .scenario import FlatSeam, SeamModel
 
 checks = partial(REGISTRY.checks, page="pan/cell")
@@ -27,20 +30,18 @@ checks = partial(REGISTRY.checks, page="pan/cell")
             key="points", high=1e-12, label="seam points used and the printed formula differ by [m]"
         ),
     ],
-    samples=32,
 )
 def saddle_curve(assumed: Assumed) -> Result:
     """The printed formula in symbols against both cylinders, and against the points used."""
     model = SeamModel.of(assumed)
-    theta, ra, rb = sp.symbols("theta R_a R_b", positive=True)
-    names = {"theta": theta, "R_a": ra, "R_b": rb}
-    text = REGISTRY.printed("pan.eq17")["formula"]
-    x, y, z = (sp.sympify(part.split("=")[1], locals=names) for part in text.split(", "))
+    symbols = {name: sp.Symbol(name, positive=True) for name in ("theta", "R_a", "R_b")}
+    x, y, z = _coordinates(symbols)
+    rb, ra = symbols["R_b"], symbols["R_a"]
     on_pipes = sp.simplify(x**2 + y**2 - rb**2) == 0 and sp.simplify(y**2 + z**2 - ra**2) == 0
     seam = model.seam
     radii = {ra: model.radius_main, rb: model.radius_branch}
-    formula = sp.lambdify(theta, [part.subs(radii) for part in (x, y, z)], "numpy")
-    printed = np.column_stack(np.broadcast_arrays(*formula(seam.theta)))
+    formula = sp.lambdify(symbols["theta"], [part.subs(radii) for part in (x, y, z)], "numpy")
+    printed = np.column_stack(np.broadcast_arrays(seam.theta, *formula(seam.theta)))[:, 1:]
     difference = float(abs(printed - seam.points).max())
     height = np.ptp(seam.points[:, 2])
     return Result(
@@ -54,17 +55,28 @@ def saddle_curve(assumed: Assumed) -> Result:
     )
 
 
+def _coordinates(symbols: dict[str, sp.Symbol]) -> list[sp.Expr]:
+    """x, y and z of (17) as printed, each from the line that gives it."""
+    printed = {}
+    for line in printed_text("pan.eq17"):
+        name, expression = parse(line).sides
+        loose = {symbol: symbols.get(str(symbol)) for symbol in expression.free_symbols}
+        if None in loose.values():
+            raise DataFileError("printed formula", "name", line, "theta, R_a and R_b alone")
+        printed[str(name)] = expression.subs(loose)
+    return [printed[axis] for axis in "xyz"]
+
+
 @checks(
     "pan.claim_theta_range",
-    samples=32,
     rules=[Adopts(key="theta", to="theta", label="range of theta that the seam covers [rad]")],
 )
 def theta_range(assumed: Assumed) -> Result:
-    """First value of theta and the end of the last step."""
-    count = round(assumed["seam_points"])
-    covered = [0.0, 2.0 * np.pi * count / count]
+    """First value of theta and the end of the last step, of the seam that is used."""
+    theta = saddle_seam(0.1, 0.06, round(assumed["seam_points"])).theta
+    count = len(theta)
     return Result(
-        obtained={"theta": covered},
+        obtained={"theta": [float(theta[0]), float(theta[-1] + np.diff(theta).max())]},
         caption=(
             f"The seam is closed and covered once, by {count} equally spaced points. The interval "
             "is printed open, which would leave out the point at theta = 0."
@@ -74,7 +86,6 @@ def theta_range(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig05",
-    samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NoOriginal(key="radii", label="the radii and lengths of the pipes"),
@@ -102,7 +113,6 @@ def workpiece(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig06",
-    samples=32,
     rules=[
         Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NoOriginal(key="radii", label="the radii"),
@@ -126,7 +136,6 @@ def curve(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig07",
-    samples=32,
     rules=[
         Bounded(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
         NoOriginal(key="posture", label="the rule of the flat position"),
@@ -134,13 +143,13 @@ def curve(assumed: Assumed) -> Result:
 )
 def flat_points(assumed: Assumed) -> Result:
     """The current seam point after the rotation that lays it flat, about the fixed origin."""
-    flat, centre = FlatSeam.of(assumed), assumed["rotation_centre"]
+    flat = FlatSeam.of(assumed)
     seam, R = flat.seam, flat.rotations
     points = np.einsum("nij,nj->ni", R, seam.points)
     tangent = np.einsum("nij,nj->ni", R, seam.tangent)
     slope = float(abs(tangent[:, 2]).max())
     return Result(
-        obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist(), "about": centre},
+        obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist()},
         table=_table(points),
         caption=(
             "Each seam point at the moment it is welded, the workpiece turned about its origin "
@@ -155,7 +164,6 @@ def flat_points(assumed: Assumed) -> Result:
 
 @checks(
     "pan.fig08",
-    samples=32,
     rules=[
         Bounded(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
         NoOriginal(key="position", label="the initial position used"),

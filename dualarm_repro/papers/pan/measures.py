@@ -7,18 +7,11 @@ from functools import partial
 import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
-from ...view.ellipsoids import beta_figure
-from ...welding import Objective, closed_form, inverse_volumes
-from ...welding.ellipsoid import (
-    ellipsoid_volume,
-    gram_matrices,
-    intersection_volume,
-    intersection_volume_monte_carlo,
-)
+from ...welding import closed_form
+from ...welding.ellipsoid import gram_matrices
 from ...welding.manipulability import tight_measure
-from .coordination import at_display
-from .optimum import optimum
-from .scenario import SEED, Job, Measure, stand_in
+from .print_forms import block_matrix, block_residual, printed_text, residual, value, worst
+from .scenario import SEED, stand_in
 
 checks = partial(REGISTRY.checks, page="pan/measure")
 _SAMPLES = 500
@@ -29,20 +22,23 @@ _STEP = 1e-6
     "pan.eq09",
     rules=[
         Bounded(
-            key="difference", high=1e-7, label="J(q) q_dot and the motion of the flange differ by"
+            key="difference", high=1e-7, label="J(q) q_dot and the motion of the flange, in (9)"
         )
     ],
-    samples=32,
 )
 def differential_kinematics(assumed: Assumed) -> Result:
     """The Jacobian against central differences of the pose."""
     arm = stand_in(assumed["arm"])
-    worst = float(np.max([_jacobian_error(arm, q, qd) for q, qd in _motions(arm, 100)]))
+    cases = [
+        {"x_dot": _flange_twist(arm, q, qd), "J": arm.jacobian(q), "q_dot": qd}
+        for q, qd in _motions(arm, 100)
+    ]
+    largest = worst(printed_text("pan.eq09"), cases)
     return Result(
-        obtained={"difference": worst},
+        obtained={"difference": largest},
         caption=(
             "On 100 random motions of the stand-in arm J(q) q_dot equals the velocity of its "
-            f"flange by central differences to {worst:.1e}."
+            f"flange by central differences to {largest:.1e}."
         ),
     )
 
@@ -51,34 +47,38 @@ def differential_kinematics(assumed: Assumed) -> Result:
     "pan.eq10",
     rules=[
         Bounded(
-            key="on_ellipsoid", high=1e-8, label="x_dot^T (J J^T)^-1 x_dot - 1 of extreme motions"
+            key="on_ellipsoid", high=1e-8, label="sides of the printed (10) for extreme motions"
         ),
         Bounded(key="inside", high=1.0 + 1e-8, label="largest value over unit joint velocities"),
-        Bounded(
-            key="axes", high=1e-9, label="sqrt of eigenvalues of J J^T against singular values"
-        ),
+        Bounded(key="axes", high=1e-9, label="printed axes against singular values of J"),
     ],
-    samples=32,
 )
 def velocity_ellipsoid(assumed: Assumed) -> Result:
     """Unit joint velocities fill the ellipsoid; the axes are the singular values."""
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     J = arm.jacobian(arm.random_configurations(_SAMPLES, rng))[:, :3]
-    gram = J @ J.transpose(0, 2, 1)
-    inverse = np.linalg.inv(gram)
-    eigen = np.sqrt(np.linalg.eigvalsh(gram))[:, ::-1]
-    axes = float(abs(eigen - np.linalg.svd(J, compute_uv=False)).max())
+    axes = worst(
+        printed_text("pan.eq10", "axes"),
+        [
+            {"sigma_i": np.linalg.svd(one, compute_uv=False), "J": one, "lambda_i": _eigenvalues}
+            for one in J
+        ],
+    )
+    inverse = np.linalg.inv(J @ J.transpose(0, 2, 1))
     velocity = np.einsum("nij,nj->ni", J, _unit(rng.normal(size=(_SAMPLES, 6))))
     inside = float(np.einsum("ni,nij,nj->n", velocity, inverse, velocity).max())
     # q_dot = J^T s reaches the surface: it has no part in the null space of J.
     row = _unit(np.einsum("nji,nj->ni", J, rng.normal(size=(_SAMPLES, 3))))
     extreme = np.einsum("nij,nj->ni", J, row)
-    surface = np.einsum("ni,nij,nj->n", extreme, inverse, extreme)
+    surface = worst(
+        printed_text("pan.eq10"),
+        [{"x_dot": v[:, np.newaxis], "J": one} for v, one in zip(extreme, J, strict=True)],
+    )
     return Result(
-        obtained={"on_ellipsoid": float(abs(surface - 1).max()), "inside": inside, "axes": axes},
+        obtained={"on_ellipsoid": surface, "inside": inside, "axes": axes},
         caption=(
             "Unit joint velocities without a part in the null space of J map onto the ellipsoid "
-            f"(residual {abs(surface - 1).max():.1e}), all others into it. The unit sphere of "
+            f"(residual {surface:.1e}), all others into it. The unit sphere of "
             "joint velocities fills it only where J has full row rank. Its axes are the singular "
             "values of J, which for a matrix that is not symmetric are no eigenvalues."
         ),
@@ -89,19 +89,21 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
     "pan.eq11",
     rules=[
         Bounded(
-            key="closed_form", high=1e-12, label="closed form and sqrt(det(J J^T)) differ by [m^3]"
+            key="closed_form", high=1e-12, label="closed form and the printed (11) differ by [m^3]"
         ),
         Bounded(key="tool", high=1e-12, label="change of omega with the length of the tool [m^3]"),
         Bounded(key="axes_1_4_6", high=1e-12, label="change of omega with q1, q4 and q6 [m^3]"),
     ],
-    samples=32,
 )
 def single_measure(assumed: Assumed) -> Result:
     """sqrt(det(J J^T)) by Pinocchio's and the batch Jacobian, and its closed form."""
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     q = arm.random_configurations(_SAMPLES, rng)
     closed = closed_form(arm, q)
-    difference = float(abs(closed - abs(np.linalg.det(arm.jacobian(q)))).max())
+    difference = worst(
+        printed_text("pan.eq11"),
+        [{"omega": w, "J": J} for w, J in zip(closed, arm.jacobian(q), strict=True)],
+    )
     levers = rng.normal(size=(_SAMPLES, 3))
     gram = gram_matrices(arm.chain, np.eye(3), q, levers, 6)
     tool = float(abs(np.sqrt(np.abs(np.linalg.det(gram))) - closed).max())
@@ -127,16 +129,15 @@ def single_measure(assumed: Assumed) -> Result:
 @checks(
     "pan.eq12",
     rules=[Bounded(key="difference", high=1e-7, label="X_dot and J Q_dot differ by at most")],
-    samples=32,
 )
 def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
     arm = stand_in(assumed["arm"])
     (q1, qd1), (q2, qd2) = _motions(arm, 2)
     J = _block(arm.jacobian(q1), arm.jacobian(q2))
-    stacked = J @ np.concatenate([qd1, qd2])
     measured = np.concatenate([_flange_twist(arm, q1, qd1), _flange_twist(arm, q2, qd2)])
-    difference = float(abs(stacked - measured).max())
+    given = {"X_dot": measured, "J": J, "Q_dot": np.concatenate([qd1, qd2])}
+    difference = residual(printed_text("pan.eq12"), given)
     return Result(
         obtained={"difference": difference},
         caption=(
@@ -151,30 +152,40 @@ def stacked_kinematics(assumed: Assumed) -> Result:
     "pan.eq13",
     rules=[
         Is(
-            key="column_vectors",
+            key="stacked",
             value=True,
-            label="with vectors of 2m and 2n entries (12) is defined",
+            label="stacked as printed, the vectors of both carriers fit the matrix of (14)",
         ),
         Is(
             key="as_printed",
             value=False,
             role=Role.CONTRADICTS,
-            label="with the printed sizes 2 x m and 2 x n the product (12) is defined",
+            label="with the printed sizes the product (12) is defined",
         ),
     ],
 )
 def stacked_sizes(assumed: Assumed) -> Result:
-    """Whether the product J Q_dot exists for either size."""
+    """Whether the product of (12) exists, by the vectors stacked and by the sizes printed."""
     m = n = 6
-    J = np.zeros((2 * m, 2 * n))
-    sizes = {"as_printed": ((2, n), (2, m)), "column_vectors": ((2 * n,), (2 * m,))}
-    found = {name: _defined(J, *shapes) for name, shapes in sizes.items()}
+    given = {name: np.zeros(m) for name in ("x1_dot", "x2_dot", "q1_dot", "q2_dot")}
+    stacked, printed = {}, {}
+    for name in ("X_dot", "Q_dot"):
+        entry = printed_text("pan.eq13", name)
+        stacked[name] = sum(np.size(value(part, given)) for part in entry["stack"])
+        printed[name] = _size(entry, m, n)
+    matrix = printed_text("pan.eq14", "matrix")
+    blocks = {"J_1": np.ones((m, n)), "J_2": np.ones((m, n))}
+    rows, columns = block_matrix(matrix, blocks).shape
+    fits = (columns, rows) == (stacked["Q_dot"], stacked["X_dot"])
+    size = _size(REGISTRY.printed("pan.eq14"), m, n)
+    defined = (size[1], size[0]) == (printed["Q_dot"][0], printed["X_dot"][0]) if fits else None
     return Result(
-        obtained=found,
+        obtained={"stacked": fits, "as_printed": defined, "sizes": printed, "entries": stacked},
         caption=(
-            "In R^(2 x m) and R^(2 x n), as printed, the stacked velocities are matrices that "
-            "the generalized Jacobian cannot be multiplied with; as vectors of 2m and 2n entries "
-            "they fit."
+            f"With the sizes as printed, {_told(printed['X_dot'])} and {_told(printed['Q_dot'])}, "
+            f"the product of (12) is {'' if defined else 'not '}defined. As vectors of "
+            f"{stacked['X_dot']} and {stacked['Q_dot']} entries the velocities "
+            f"{'' if fits else 'do not '}fit the matrix of {rows} x {columns}."
         ),
     )
 
@@ -182,10 +193,13 @@ def stacked_sizes(assumed: Assumed) -> Result:
 @checks(
     "pan.eq14",
     rules=[
-        Is(key="shape", value=[12, 12], label="size for two arms of six joints"),
-        Bounded(key="off_diagonal", high=0.0, label="largest entry outside the two blocks"),
+        Bounded(
+            key="difference",
+            high=1e-12,
+            label="printed blocks and the Jacobian of a model of both carriers differ by",
+        ),
+        Is(key="size_agrees", value=True, label="the printed size is that of the Jacobian"),
     ],
-    samples=32,
 )
 def generalized_jacobian(assumed: Assumed) -> Result:
     """Block-diagonal Jacobian of two arms, from a model that holds both."""
@@ -206,13 +220,15 @@ def generalized_jacobian(assumed: Assumed) -> Result:
     joints = (arm.nq, 2 * arm.nq)
     pin.computeJointJacobians(both, data, q)
     J = np.vstack([pin.getJointJacobian(both, data, joint, frame) for joint in joints])
-    outside = max(abs(J[:6, 6:]).max(), abs(J[6:, :6]).max())
+    printed = _size(REGISTRY.printed("pan.eq14"), 6, arm.nq)
+    blocks = {"J_1": arm.jacobian(q1), "J_2": arm.jacobian(q2)}
+    difference = block_residual(printed_text("pan.eq14", "matrix"), blocks, J)
     return Result(
-        obtained={"shape": list(J.shape), "off_diagonal": float(outside)},
+        obtained={"difference": difference, "size_agrees": printed == J.shape, "size": printed},
         caption=(
-            f"In one model of both carriers the Jacobian is {J.shape[0]} x {J.shape[1]} and zero "
-            "outside its two blocks. The printed size 12 x (m + n) agrees because m = n = 6; in "
-            "general it is 2m x 2n."
+            f"In one model of both carriers the Jacobian is {J.shape[0]} x {J.shape[1]}, and the "
+            f"blocks of (14) differ from it by {difference:.1e}. The printed size is "
+            f"{_told(printed)} for m = n = 6; in general it would have to be 2m x 2n."
         ),
     )
 
@@ -220,22 +236,25 @@ def generalized_jacobian(assumed: Assumed) -> Result:
 @checks(
     "pan.eq15",
     rules=[
-        Bounded(key="determinants", high=1e-12, label="both sides of (15) differ by [m^6]"),
+        Bounded(key="determinants", high=1e-12, label="the printed sides of (15) differ by [m^6]"),
         Bounded(
             key="product", high=1e-12, label="(15) and the product of the single measures, [m^6]"
         ),
     ],
-    samples=32,
 )
 def pair_measure(assumed: Assumed) -> Result:
     """sqrt(det(J J^T)) of the block matrix, factored."""
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     q1, q2 = arm.random_configurations(_SAMPLES, rng), arm.random_configurations(_SAMPLES, rng)
     J1, J2 = arm.jacobian(q1), arm.jacobian(q2)
-    whole = np.array([abs(np.linalg.det(_block(a, b))) for a, b in zip(J1, J2, strict=True)])
-    gram1, gram2 = (np.abs(np.linalg.det(J)) ** 2 for J in (J1, J2))
+    blocks = [_block(a, b) for a, b in zip(J1, J2, strict=True)]
+    whole = np.array([abs(np.linalg.det(J)) for J in blocks])
     product = tight_measure(closed_form(arm, q1), closed_form(arm, q2))
-    factored = float(abs(whole - np.sqrt(gram1 * gram2)).max())
+    cases = [
+        {"M_tight": w, "J": J, "J_1": a, "J_2": b}
+        for w, J, a, b in zip(product, blocks, J1, J2, strict=True)
+    ]
+    factored = worst(printed_text("pan.eq15"), cases)
     single = float(abs(whole - product).max())
     return Result(
         obtained={"determinants": factored, "product": single, "largest": float(whole.max())},
@@ -243,116 +262,6 @@ def pair_measure(assumed: Assumed) -> Result:
             "The determinant of the block matrix factors: M_tight is the product of the "
             f"carriers' single measures, to {single:.1e} m^6. Its unit is m^6."
         ),
-    )
-
-
-@checks(
-    "pan.eq16",
-    rules=[
-        Bounded(
-            key="between",
-            high=1e-12,
-            label="MMR leaves the interval between M_tight and M_loose by",
-        ),
-        Bounded(
-            key="moved_by_unit",
-            low=0.05,
-            role=Role.CONTRADICTS,
-            label="with millimetres instead of metres the best position moves by [m]",
-        ),
-    ],
-)
-def system_measure(assumed: Assumed) -> Result:
-    """The weighted mean at one position, and its best position in metres and in millimetres."""
-    job, measure = Job.of(assumed), Measure.of(assumed)
-    _, jobs, _ = at_display(assumed)
-    found = job.placement(measure.reading()).measures(jobs)
-    low, high = np.minimum(found.tight, found.loose), np.maximum(found.tight, found.loose)
-    between = float(np.maximum(low - found.system, found.system - high).max())
-    box = tuple(tuple(side) for side in assumed["search_box"])
-    best = {}
-    for unit in ("m", "mm"):
-        changed = Measure(**{**vars(measure), "length_unit": unit})
-        best[unit] = np.abs(optimum(job, changed, box).position)
-    moved = float(np.linalg.norm(best["m"] - best["mm"]))
-    return Result(
-        obtained={
-            "between": max(between, 0.0),
-            "moved_by_unit": moved,
-            "best_in_metres": best["m"].tolist(),
-            "best_in_millimetres": best["mm"].tolist(),
-        },
-        caption=(
-            "(16) is a weighted mean of a product of two measures, in m^6, and of one, in m^3. "
-            "Which position is best therefore depends on the unit of length: it moves by "
-            f"{moved:.2f} m when metres become millimetres, with everything else the same (mirror "
-            "images counted as one)."
-        ),
-    )
-
-
-@checks(
-    "pan.claim_beta_rule",
-    samples=32,
-    rules=[
-        Bounded(key="cancels", high=1e-12, label="(16) with and without V_int differs by at most"),
-        Is(
-            key="larger_ratio_larger_weight",
-            value=True,
-            label="the larger ratio has the larger weight",
-        ),
-        Bounded(
-            key="monte_carlo",
-            high=5.0,
-            label="quadrature and Monte Carlo of V_int differ by [sigma]",
-        ),
-    ],
-)
-def weights(assumed: Assumed) -> Result:
-    """Volumes, their intersection, the weights, and (16) with and without the intersection."""
-    cell, jobs, _ = at_display(assumed)
-    measure = Measure.of(assumed).reading()
-    grams = np.stack(
-        [
-            gram_matrices(
-                arm.chain, cell.bases[k][:3, :3].copy(), jobs.q[0, k], cell.lever_arms[k], 3
-            )
-            for k, arm in enumerate(cell.arms)
-        ]
-    )
-    volumes = ellipsoid_volume(grams)
-    common = np.array([intersection_volume(grams[:, n], 2000) for n in range(cell.count)])
-    inverse = inverse_volumes(cell, jobs.q, measure.space, measure.carriers)
-    reading = Objective()
-    without = reading.measures(jobs.w, inverse)
-    within = reading.measures(jobs.w, inverse * common)
-    cancels = float(abs(without.system - within.system).max())
-    sampled, error = intersection_volume_monte_carlo(
-        grams[:, 0], 20_000, np.random.default_rng(SEED)
-    )
-    exact = intersection_volume(grams[:, 0])
-    share = without.beta_tight / (without.beta_tight + without.beta_loose)
-    order = np.argsort(common / volumes, axis=0)
-    ordered = bool((np.argsort(1.0 / volumes, axis=0) == order).all())
-    return Result(
-        obtained={
-            "cancels": cancels,
-            "larger_ratio_larger_weight": ordered,
-            "monte_carlo": abs(exact - sampled) / error,
-            "volumes": volumes[:, 0].tolist(),
-            "intersection": exact,
-            "mean_share_of_carriers": float(share.mean()),
-        },
-        caption=(
-            "At the first seam point the ellipsoids have volumes "
-            f"{', '.join(f'{v:.2f}' for v in volumes[:, 0])} and a common part of {exact:.2f} "
-            f"(quadrature; Monte Carlo {sampled:.2f} +- {error:.2f}). One intersection stands in "
-            f"every ratio and cancels: (16) with and without it agrees to {cancels:.1e}. What "
-            "remains are inverse volumes, which give the less mobile group the larger say: the "
-            f"carriers have {share.mean():.0%} of the weight on average."
-        ),
-        alt="Volumes of three ellipsoids and of their common part, and weights along the seam.",
-        figure=lambda: beta_figure(volumes, common, share[0]),
     )
 
 
@@ -372,10 +281,6 @@ def _flange_twist(arm: object, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
     return np.concatenate([v, pin.log3(ahead[:3, :3] @ behind[:3, :3].T) / (2 * _STEP)])
 
 
-def _jacobian_error(arm: object, q: np.ndarray, qd: np.ndarray) -> float:
-    return float(abs(arm.jacobian(q) @ qd - _flange_twist(arm, q, qd)).max())
-
-
 def _block(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """diag(J_1, J_2)."""
     whole = np.zeros((len(first) + len(second), first.shape[1] + second.shape[1]))
@@ -384,12 +289,19 @@ def _block(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return whole
 
 
-def _defined(J: np.ndarray, velocity: tuple[int, ...], result: tuple[int, ...]) -> bool:
-    """Whether J times an array of one size is an array of the other."""
-    try:
-        return (J @ np.zeros(velocity)).shape == result
-    except ValueError:
-        return False
+def _size(entry: dict[str, str], m: int, n: int) -> tuple[int, int]:
+    """Rows and columns as printed, for robots of m by n."""
+    given = {"m": m, "n": n}
+    return int(value(entry["rows"], given)), int(value(entry["columns"], given))
+
+
+def _told(size: tuple[int, int]) -> str:
+    return f"{size[0]} x {size[1]}"
+
+
+def _eigenvalues(matrix: np.ndarray) -> np.ndarray:
+    """Eigenvalues of a symmetric matrix, the largest first."""
+    return np.linalg.eigvalsh(matrix)[::-1]
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -20,7 +20,9 @@ FULL_SCALE = 0.7
 #: Rule to a score (P,) from manipulabilities (P, 3, N) and system measure (P, N).
 _SCORES = {
     "lowest_welder": lambda w, system: 1.0 / w[:, WELDER].max(axis=1),
+    "lowest_mean_of_welder": lambda w, system: 1.0 / w[:, WELDER].mean(axis=1),
     "largest_variation": lambda w, system: system.std(axis=1) / system.mean(axis=1),
+    "largest_swing": lambda w, system: np.ptp(system, axis=1) / system.max(axis=1),
 }
 
 
@@ -36,7 +38,13 @@ def found_optimum(assumed: Mapping[str, Any]) -> tuple[Job, Measure, Optimum]:
 
 
 def at_optimum(assumed: Mapping[str, Any]) -> tuple[Cell, Jobs, np.ndarray, Measures]:
-    """The job at the optimum obtained: cell, joint paths, position, measures along the seam."""
+    """The job at the optimum obtained: cell, joint paths, position, measures along the seam.
+
+    Raises
+    ------
+    InputError
+        No position of the region is feasible.
+    """
     job, measure, best = found_optimum(assumed)
     centre = best.position
     return (
@@ -52,12 +60,13 @@ def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scen
     return job_scene(title, cell, jobs.q[0], centre, jobs.w[0], FULL_SCALE)
 
 
-@memo()
+@memo(4096)
 def extreme_position(job: Job, measure: Measure, box: Box, rule: str) -> Optimum:
-    """Feasible position of the lowest welder or of the largest variation.
+    """Feasible position that a rule calls poor; NaN if no position of the grid is feasible.
 
-    ``rule`` is ``lowest_welder`` (its largest manipulability along the seam is smallest) or
-    ``largest_variation`` (coefficient of variation of the system measure).
+    ``rule`` is ``lowest_welder`` (its largest manipulability along the seam is smallest),
+    ``lowest_mean_of_welder``, ``largest_variation`` (coefficient of variation of the system
+    measure) or ``largest_swing`` (its range over its maximum).
     """
     placement = job.placement(measure.reading())
 

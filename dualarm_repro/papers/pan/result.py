@@ -1,150 +1,59 @@
-"""The optimum of `pan`: the problem, its constraints, the printed point and Figs 16 and 17."""
+"""The optimum of `pan` against the printed point, and Figs 16 and 17."""
 
 from __future__ import annotations
 
+import json
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
-from ...view.landscape import readings_figure, slices_figure
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...tracking import memo
+from ...view.landscape import readings_figure
 from ...view.seam_curves import joints_figure, measures_figure
-from ...welding import ROBOTS, Placement, Separation, Status
-from ...welding.grid_search import grid_points
+from ...welding import ROBOTS, Cell, Jobs, Placement
 from ..wording import point
 from .consistency import CONSISTENCY, OBJECTIVES, READINGS
-from .optimum import SPACING, solved
-from .positions import at_optimum, found_optimum, job_scene_at, search_box, status_name
+from .coordination import flange_poses
+from .fit import FIT, loss_at_print
+from .optimum import solved
+from .positions import at_optimum, found_optimum, job_scene_at, status_name
+from .problem import joint_margin
 from .scenario import printed_optimum
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 _NEAR, _FAR = 0.10, 0.15  # [m]
 _LABELS = {"inverted": "matrix as pose of the base", "literal": "matrix as labelled"}
-_CONSTRAINTS = {
-    "joint angles within limits": (Status.JOINT_LIMITS,),
-    "away from singularities": (Status.SINGULAR,),
-    "no collision": (Status.COLLISION,),
-    "inside the common workspace": (Status.OUT_OF_REACH,),
-}
-
-
-@checks(
-    "pan.eq_opt",
-    rules=[
-        Bounded(key="feasible_share", low=1e-4, high=0.9999, label="feasible share of the region"),
-        Is(key="interior", value=True, label="the optimum lies inside the region, not on its edge"),
-        Bounded(key="better_neighbours", high=0.0, label="feasible neighbours that are better"),
-    ],
-)
-def problem(assumed: Assumed) -> Result:
-    """Feasible set and maximum of the declared problem."""
-    job, measure, best = found_optimum(assumed)
-    rule = assumed["branch_rule"]
-    box = np.array(search_box(assumed))
-    placement = job.placement(measure.reading())
-    values = placement(grid_points(box, SPACING))
-    margin = np.minimum(best.position - box[:, 0], box[:, 1] - best.position)
-    around = best.position + 0.01 * np.concatenate([np.eye(3), -np.eye(3)])
-    better = int((placement(around) > best.fitness * (1 + 1e-9)).sum())
-    return Result(
-        obtained={
-            "feasible_share": float((values > 0).mean()),
-            "interior": bool(margin.min() > 0),
-            "better_neighbours": better,
-            "optimum": best.position.tolist(),
-            "fitness": best.fitness,
-            "branch_rule": rule,
-        },
-        caption=(
-            f"The constraints leave {np.mean(values > 0):.1%} of the region. The best fitness, "
-            f"{best.fitness:.4f}, is taken at ({point(best.position, 3)}) m inside it. The region "
-            "within one per cent of it is long in x and thin in y, which is the coordinate the "
-            "measure tells best."
-        ),
-        alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",
-        figure=lambda: slices_figure(
-            placement, box, best.position, best.fitness, printed_optimum()
-        ),
-    )
-
-
-@checks(
-    "pan.claim_constraints",
-    rules=[
-        Is(key="count", to="count", label="constraints tested"),
-        Bounded(key="separation", low=1e-9, label="smallest separation at the optimum [m]"),
-        Bounded(key="joint_margin", low=1e-9, label="smallest margin to a joint limit [deg]"),
-        Bounded(key="measure", low=1e-9, label="smallest manipulability less the threshold [m^3]"),
-        Bounded(key="inside", low=0.0, label="distance of the optimum from the edge of S [m]"),
-    ],
-)
-def constraints(assumed: Assumed) -> Result:
-    """The four constraints at the optimum, and what each excludes of the region."""
-    cell, jobs, centre, _ = at_optimum(assumed)
-    box = np.array(search_box(assumed))
-    separation = Separation(cell)
-    pairs = separation.per_pair(jobs.q, jobs.centres)[0]
-    owners = pd.Series(pairs, index=[" - ".join(pair) for pair in separation.owners])
-    nearest = owners.groupby(level=0).min().sort_values()
-    margins = []
-    for k in range(len(ROBOTS)):
-        lower, upper = cell.limits(k)
-        margins.append(np.minimum(jobs.q[0, k] - lower, upper - jobs.q[0, k]).min())
-    points = grid_points(box, SPACING)
-    placement = Placement(cell, found_optimum(assumed)[1].reading())
-    status = np.concatenate([placement.jobs(part).status for part in np.array_split(points, 64)])
-    excluded = {
-        name: float(np.isin(status, [int(s) for s in causes]).mean())
-        for name, causes in _CONSTRAINTS.items()
-    }
-    told = ", ".join(f"{name} {share:.1%}" for name, share in excluded.items())
-    return Result(
-        obtained={
-            "count": len(excluded),
-            "separation": float(pairs.min()),
-            "joint_margin": float(np.degrees(min(margins))),
-            "measure": float(jobs.w.min() - cell.threshold),
-            "inside": float(np.minimum(centre - box[:, 0], box[:, 1] - centre).min()),
-            "excluded": excluded,
-            "separations": nearest.to_dict(),
-        },
-        table=nearest.rename("separation_m").rename_axis("pair").reset_index(),
-        caption=(
-            f"All four constraints hold at the optimum: the nearest pair ({nearest.index[0]}) is "
-            f"{nearest.iloc[0]:.3f} m apart, the nearest joint limit "
-            f"{np.degrees(min(margins)):.1f} deg away. Tested in turn they exclude of the region: "
-            f"{told}. Of the pairs, torch and workpiece have the same distance at every position, "
-            "since both follow the seam; the others are given one by one for that reason."
-        ),
-    )
 
 
 @checks(
     "pan.claim_optimum",
     rules=[
         Bounded(
-            key="readings_near",
-            low=1,
-            label="readings with an optimum within 0.15 m of the printed point in some set",
+            key="distance",
+            high="inside_branch",
+            label="distance of the optimum to the printed point [m]",
         ),
-        NoOriginal(key="robot", label="parameters and limits of the robot"),
-        NoOriginal(key="workpiece", label="workpiece, grasp, torch and posture"),
+        Bounded(
+            key="loss",
+            high="three_digits",
+            label="share of the best measure that the printed point lacks",
+        ),
     ],
 )
 def printed_point(assumed: Assumed) -> Result:
-    """Distance of the optimum to the printed point, and which readings could have produced it."""
+    """Distance of the optimum to the printed point, and choices that bring it there."""
     job, measure, best = found_optimum(assumed)
     printed = printed_optimum()
-    distance = float(np.linalg.norm(best.position - printed))
+    distance = float(np.linalg.norm(best.position - printed)) if best.fitness else None
+    lost = loss_at_print(job, measure, best.fitness)
     at_print = solved(job, tuple(printed))
     table = reading_table()
     near, far = (table[[f"{reading} {radius}" for reading in READINGS]] for radius in (_NEAR, _FAR))
     shares = far.set_axis([_LABELS[reading] for reading in READINGS], axis=1)
-    excluded = [
-        f"{row} ({column})" for column in shares for row in shares.index[shares[column] == 0]
-    ]
     told = "; ".join(
         f"with the {column} '{shares[column].idxmax()}' comes nearest, "
         f"{shares[column].max():.1%} of its optima"
@@ -153,26 +62,22 @@ def printed_point(assumed: Assumed) -> Result:
     sets = len(CONSISTENCY.load()) // len(READINGS)
     cell = job.cell().unlimited()
     unlimited = Placement(cell, measure.reading()).jobs([printed])
+    witnesses = fitted()
     return Result(
         obtained={
-            "C": best.position.tolist(),
+            "C": best.position.tolist() if best.fitness else None,
             "distance": distance,
+            "loss": lost,
             "fitness": best.fitness,
             "printed_point_is": status_name(at_print),
-            "readings_near": int((far > 0).to_numpy().sum()),
-            "readings": shares.size,
-            "feasible_sets": _feasible_sets(),
-            "excluded": excluded,
-            "shares": {name: row.to_dict() for name, row in table.iterrows()},
         },
         table=table.reset_index(),
-        caption=(
-            f"With the declared assumptions the best position is ({point(best.position, 3)}) m, "
-            f"{distance:.2f} m from the printed one, which is itself not feasible there "
-            f"({status_name(at_print)}). Over {sets} sampled sets of assumptions, and within "
-            f"{_FAR:g} m: {told}. The largest share within {_NEAR:g} m is "
-            f"{near.to_numpy().max():.1%}. {len(excluded)} of {shares.size} readings never come "
-            f"within {_FAR:g} m. The text does not determine the printed point."
+        witnesses=witnesses,
+        caption=_told_optimum(best.position, distance, lost, status_name(at_print))
+        + _told_fit(witnesses)
+        + (
+            f" Over {sets} sampled sets of assumptions, and within {_FAR:g} m of the printed "
+            f"point: {told}. The largest share within {_NEAR:g} m is {near.to_numpy().max():.1%}."
         ),
         alt=(
             "Left: optima of all readings in two projections with the printed point and circles "
@@ -186,25 +91,73 @@ def printed_point(assumed: Assumed) -> Result:
     )
 
 
+@memo()
+def fitted() -> list[dict[str, Any]]:
+    """Choices found by the stored search under which the printed point is the optimum."""
+    limits = REGISTRY.look("pan.claim_optimum", "thresholds").thresholds
+    table = FIT.load()
+    met = (table["distance"] <= limits["inside_branch"].value) & (
+        table["loss"] <= limits["three_digits"].value
+    )
+    return [
+        {
+            "choice": f"pan_fit {row['start']}",
+            "verdict": "holds",
+            "values": json.loads(row["values"]),
+            "judged": {"distance": float(row["distance"]), "loss": float(row["loss"])},
+        }
+        for _, row in table[met].sort_values("distance").iterrows()
+    ]
+
+
+def _told_optimum(C: np.ndarray, distance: float | None, lost: float, status: str) -> str:
+    if distance is None:
+        return "No position of the region is feasible."
+    there = "not feasible there" if lost >= 1 else f"{lost:.2%} below it"
+    return (
+        f"With these assumptions the best position is ({point(C, 3)}) m, {distance:.2f} m from the "
+        f"printed one, which is {there} ({status})."
+    )
+
+
+def _told_fit(witnesses: list[dict[str, Any]]) -> str:
+    if not witnesses:
+        return f" Of {len(FIT.load())} directed searches none found a choice that gives it."
+    best = witnesses[0]
+    told = ", ".join(
+        f"{key.replace('_', ' ')} {value if isinstance(value, str) else format(value, '.3g')}"
+        for key, value in best["values"].items()
+    )
+    return (
+        f" Of {len(FIT.load())} directed searches {len(witnesses)} found a choice that gives it: "
+        f"with {told} the optimum is {best['judged']['distance']:.3f} m from it and "
+        f"{best['judged']['loss']:.2%} better. That shows a possibility, not the origin."
+    )
+
+
 @checks(
     "pan.fig16",
     rules=[
         Bounded(
-            key="smallest", low=0.01, label="smallest manipulability of a robot on the seam [m^3]"
+            key="aggregated",
+            high=1e-12,
+            label="the drawn system measure, aggregated, and the fitness of the optimum differ by",
         ),
         NoOriginal(key="values", label="values of the curves"),
     ],
 )
 def optimal_curves(assumed: Assumed) -> Result:
     """Measures along the seam at the optimum."""
+    _, measure, best = found_optimum(assumed)
     _, jobs, _, measures = at_optimum(assumed)
-    w, axis = jobs.w[0], assumed["time_axis"]
+    w = jobs.w[0]
     return Result(
         obtained={
+            "aggregated": float(abs(measure.reading().aggregate(measures.system) - best.fitness)),
             "smallest": float(w.min()),
             "range": [float(measures.system.min()), float(measures.system.max())],
         },
-        table=curve_table(w, measures.system, axis),
+        table=curve_table(w, measures.system, assumed["time_axis"]),
         caption=(
             f"At the optimum the system measure stays between {measures.system.min():.3f} and "
             f"{measures.system.max():.3f}; the welder's lies between {w[2].min():.3f} and "
@@ -220,48 +173,56 @@ def optimal_curves(assumed: Assumed) -> Result:
     "pan.fig17",
     rules=[
         Bounded(
-            key="largest_step", high=0.6, label="largest step of a joint between seam points [rad]"
+            key="carried",
+            high=1e-9,
+            label="flange poses of the drawn joint angles and those of the job differ by",
         ),
-        Bounded(key="joint_margin", low=1e-9, label="smallest margin to a joint limit [rad]"),
+        Bounded(key="turns", high=0.0, label="full turns by which a joint fails to come back"),
         NoOriginal(key="values", label="values of the curves"),
     ],
 )
 def joint_curves(assumed: Assumed) -> Result:
     """Joint angles along the seam at the optimum."""
-    cell, jobs, _, _ = at_optimum(assumed)
-    rule, axis = assumed["branch_rule"], assumed["time_axis"]
+    cell, jobs, centre, _ = at_optimum(assumed)
     q = jobs.q[0]
-    closed = np.concatenate([q, q[:, :1]], axis=1)
-    step = float(abs(np.diff(closed, axis=1)).max())
-    margin = min(
-        float(np.minimum(q[k] - cell.limits(k)[0], cell.limits(k)[1] - q[k]).min())
-        for k in range(len(ROBOTS))
-    )
+    closing = q[:, -1] + np.round((q[:, 0] - q[:, -1]) / (2 * np.pi)) * 2 * np.pi
     span = np.degrees(np.ptp(q, axis=1))
     columns = {
         f"{name} q{j + 1}": np.degrees(q[k, :, j])
         for k, name in enumerate(ROBOTS)
         for j in range(6)
     }
+    margin = joint_margin(cell, jobs)
     return Result(
         obtained={
-            "largest_step": step,
+            "carried": _carried(cell, jobs, centre),
+            "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
             "joint_margin": margin,
             "span_deg": span.tolist(),
             "branches": jobs.branch[0].tolist(),
-            "rule": rule,
         },
-        table=pd.DataFrame(columns).rename_axis(axis).reset_index(),
+        table=pd.DataFrame(columns).rename_axis(assumed["time_axis"]).reset_index(),
         caption=(
-            "Joint paths at the optimum, each on one branch: smooth, closed after one turn and "
-            f"within limits. The carriers' joints sweep up to {span[:2].max():.0f} deg, the "
-            f"welder's {span[2, :5].max():.0f} deg."
+            "Joint paths at the optimum, each on one branch, closed after one turn and at least "
+            f"{margin:.1f} deg within limits. The carriers' joints sweep up to "
+            f"{span[:2].max():.0f} deg, the welder's {span[2, :5].max():.0f} deg."
         ),
         alt="Six joint angles of each of three robots along the seam, smooth and periodic.",
         figure=lambda: joints_figure(cell, q),
     )
 
 
+def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
+    """Largest difference of the flange poses by forward kinematics to those of the job."""
+    worst = 0.0
+    for robot in range(len(ROBOTS)):
+        wanted = cell.flanges[robot].copy()
+        wanted[:, :3, 3] += centre
+        worst = max(worst, float(abs(flange_poses(cell, jobs, robot) - wanted).max()))
+    return worst
+
+
+@memo()
 def reading_table() -> pd.DataFrame:
     """Share of optima near the printed point for every objective (rows) and reading of the bases.
 
@@ -283,13 +244,6 @@ def reading_table() -> pd.DataFrame:
             row[f"{reading} upper"] = float(interval.high)
         rows[name] = row
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("objective")
-
-
-def _feasible_sets() -> dict[str, float]:
-    """Share of the sampled sets in which some position is feasible, for each reading."""
-    table = CONSISTENCY.load()
-    some = table["feasible_share"] > 0
-    return {name: float(some[table["base_transform"] == name].mean()) for name in READINGS}
 
 
 def _clouds() -> list[tuple[str, np.ndarray]]:

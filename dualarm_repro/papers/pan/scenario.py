@@ -33,6 +33,7 @@ from ...welding import (
 SEED = 17
 GRIPPER_RADIUS, TORCH_RADIUS = 0.06, 0.02
 _BASES = ("base1", "base2", "base3")
+_CELLS = 64
 _FLOORS = {"present": 0.0, "absent": None}
 _ORIENTATIONS = ("identity", "facing_workpiece")
 
@@ -196,7 +197,7 @@ def placed_bases(reading: str, orientation: str) -> np.ndarray:
     return poses
 
 
-@memo()
+@memo(_CELLS)
 def _cell(job: Job) -> Cell:
     arm = stand_in(job.arm, job.shoulder_height, job.link_radius_scale)
     scale = job.link_radius_scale

@@ -1,0 +1,252 @@
+"""The optimization problem of `pan`: its printed objective and constraints, tested one by one."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ...errors import DataFileError
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
+from ...view.landscape import slices_figure
+from ...welding import ROBOTS, Cell, Jobs, Placement, Separation, Status
+from ..wording import point
+from .optimum import SPACING, measures_at, solved, survey
+from .positions import found_optimum, search_box
+from .print_forms import holds, printed_text, value
+from .scenario import Job, Measure, printed_optimum
+
+checks = partial(REGISTRY.checks, page="pan/optimum")
+_CONSTRAINTS = {
+    "joint angles within limits": (Status.JOINT_LIMITS,),
+    "away from singularities": (Status.SINGULAR,),
+    "no collision": (Status.COLLISION,),
+    "inside the common workspace": (Status.OUT_OF_REACH,),
+}
+#: How much denser than the seam that is searched the constraints are tested.
+_DENSER = 10
+_SAME = 1e-12
+_TESTED = 24  # positions of each status
+
+
+@checks(
+    "pan.eq_opt",
+    rules=[
+        Is(key="variables", to="over", label="variables that are searched"),
+        Is(
+            key="objective_is_printed",
+            value=True,
+            label="the fitness of the best position is the printed objective there",
+        ),
+        Bounded(
+            key="disagreements",
+            high=0.0,
+            label="positions where the printed constraints and the search disagree",
+        ),
+        Bounded(key="better", high=0.0, label="points of a second grid that are better"),
+    ],
+)
+def problem(assumed: Assumed) -> Result:
+    """Feasible set and maximum of the declared problem, against what is printed."""
+    job, measure, best = found_optimum(assumed)
+    if not best.fitness:
+        return _nothing_feasible("variables", "objective_is_printed", "disagreements", "better")
+    box = search_box(assumed)
+    placement, grid = job.placement(measure.reading()), survey(job, measure, box)
+    second = grid.points + 0.5 * SPACING
+    values = placement(second[(second <= np.array(box)[:, 1]).all(axis=1)])
+    gap = _objective_gap(job, measure, best)
+    better = int((values > best.fitness * (1 + 1e-9)).sum())
+    disagreements = constraint_disagreements(job, grid.points, grid.status, np.array(box))
+    bounds = np.array(box)
+    edge = float(np.minimum(best.position - bounds[:, 0], bounds[:, 1] - best.position).min())
+    share = float((grid.fitness > 0).mean())
+    return Result(
+        obtained={
+            "variables": list("xyz")[: len(best.position)],
+            "objective_is_printed": gap < _SAME,
+            "objective_gap": gap,
+            "disagreements": disagreements,
+            "better": better,
+            "feasible_share": share,
+            "to_edge": edge,
+            "optimum": best.position.tolist(),
+            "fitness": best.fitness,
+        },
+        caption=(
+            f"The constraints leave {share:.1%} of the region. The best fitness, "
+            f"{best.fitness:.4f}, is taken at ({point(best.position, 3)}) m, {edge:.2f} m from "
+            f"the edge of the region; of a second grid of {len(values)} points {better} are "
+            "better. The printed constraints, evaluated on joint paths one by "
+            f"one, disagree with the search at {disagreements} positions."
+        ),
+        alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",
+        figure=lambda: slices_figure(
+            placement, bounds, best.position, best.fitness, printed_optimum()
+        ),
+    )
+
+
+@checks(
+    "pan.claim_constraints",
+    rules=[
+        Is(key="count", to="count", label="constraints tested"),
+        Bounded(key="separation", low=0.0, label="smallest separation on a denser seam [m]"),
+        Bounded(key="joint_margin", low=0.0, label="smallest margin to a joint limit there [deg]"),
+        Bounded(key="rank", low=6, label="smallest rank of a Jacobian there"),
+        Is(key="reached", value=True, label="every robot reaches every point of it"),
+    ],
+)
+def constraints(assumed: Assumed) -> Result:
+    """The constraints at the optimum on a denser seam, and what each excludes of the region."""
+    job, measure, best = found_optimum(assumed)
+    if not best.fitness:
+        return _nothing_feasible("count", "separation", "joint_margin", "rank", "reached")
+    fine = replace(job, seam_points=_DENSER * round(job.seam_points))
+    cell, jobs = fine.cell(), solved(fine, tuple(best.position))
+    if not jobs.feasible[0]:  # what is violated then shows on the paths without limits
+        jobs = Placement(cell.unlimited(), measure.reading()).jobs([best.position])
+    reached = bool(np.isfinite(jobs.q).all())
+    status = survey(job, measure, search_box(assumed)).status
+    excluded = {
+        name: float(np.isin(status, [int(s) for s in causes]).mean())
+        for name, causes in _CONSTRAINTS.items()
+    }
+    told = ", ".join(f"{name} {share:.1%}" for name, share in excluded.items())
+    obtained = {"count": len(set(Status)) - 1, "reached": reached, "excluded": excluded}
+    if not reached:
+        missing = dict.fromkeys(("separation", "joint_margin", "rank"))
+        return Result(
+            obtained=obtained | missing,
+            caption="At the optimum some points of a denser seam are out of reach. Tested in turn "
+            f"the constraints exclude of the region: {told}.",
+        )
+    nearest, margin = _nearest_pairs(cell, jobs), joint_margin(cell, jobs)
+    return Result(
+        obtained=obtained
+        | {
+            "separation": float(nearest.iloc[0]),
+            "joint_margin": margin,
+            "rank": smallest_rank(cell, jobs),
+            "separations": nearest.to_dict(),
+        },
+        table=nearest.rename("separation_m").rename_axis("pair").reset_index(),
+        caption=(
+            f"At the optimum, on a seam of {fine.seam_points} points, the nearest pair "
+            f"({nearest.index[0]}) is {nearest.iloc[0]:.3f} m apart and the nearest joint limit "
+            f"{margin:.1f} deg away. Tested in turn the constraints exclude of the region: "
+            f"{told}. Of the pairs, torch and workpiece have the same distance at every position, "
+            "since both follow the seam; the others are given one by one for that reason."
+        ),
+    )
+
+
+def constraint_disagreements(
+    job: Job, points: np.ndarray, status: np.ndarray, box: np.ndarray
+) -> int:
+    """Positions at which the printed constraints, tested on joint paths, contradict the search.
+
+    All must hold where the search finds a position feasible; where it drops one for a collision or
+    for joint limits, one of them must fail on the path that leaves limits aside. Singular ones are
+    left out: the search keeps a distance from singularities, which full rank does not.
+    """
+    cell, wrong = job.cell(), 0
+    printed = printed_text("pan.eq_opt", "subject_to")
+    for kind in (Status.FEASIBLE, Status.COLLISION, Status.JOINT_LIMITS):
+        chosen = points[status == kind]
+        chosen = chosen[:: max(1, len(chosen) // _TESTED)]
+        used = cell.unlimited() if kind is Status.JOINT_LIMITS else cell
+        placement = job.placement()
+        placement.cell = used
+        for jobs in (placement.jobs([centre]) for centre in chosen):
+            if not np.isfinite(jobs.q).all():
+                continue
+            given = _given(cell, jobs, box)
+            met = [_met(text, given) for text in printed]
+            wrong += all(met) is not (kind is Status.FEASIBLE)
+    return wrong
+
+
+def joint_margin(cell: Cell, jobs: Jobs) -> float:
+    """Smallest margin of a joint path to a limit [deg], negative beyond one."""
+    margins = [
+        np.minimum(jobs.q[0, k] - cell.limits(k)[0], cell.limits(k)[1] - jobs.q[0, k]).min()
+        for k in range(len(ROBOTS))
+    ]
+    return float(np.degrees(min(margins)))
+
+
+def smallest_rank(cell: Cell, jobs: Jobs) -> int:
+    """Smallest rank of the Jacobians along a joint path."""
+    return min(
+        int(np.linalg.matrix_rank(arm.jacobian(q)).min())
+        for arm, q in zip(cell.arms, jobs.q[0], strict=True)
+    )
+
+
+def _given(cell: Cell, jobs: Jobs, box: np.ndarray) -> dict[str, Any]:
+    """Values of the names in the printed constraints, on a joint path."""
+    centre, q = jobs.centres[0], jobs.q[0]
+    limits = np.array([cell.limits(k) for k in range(len(ROBOTS))])
+    separation = Separation(cell)
+    return {
+        "c": centre,
+        "S": box,
+        "theta": q,
+        "theta_low": limits[:, 0, np.newaxis],
+        "theta_high": limits[:, 1, np.newaxis],
+        "J": np.array([arm.jacobian(path) for arm, path in zip(cell.arms, q, strict=True)]),
+        "Rank": np.linalg.matrix_rank,
+        "m": 6,
+        "n": 6,
+        "min": lambda *values: np.min(values),
+        "SD_min": separation.smallest(jobs.q, jobs.centres)[0],
+        # |p - q|, least over two bodies, is the signed distance of the pair.
+        "p": separation.per_pair(jobs.q, jobs.centres)[0],
+        "q": 0.0,
+        "norm": lambda gap: gap,
+    }
+
+
+def _met(text: str, given: dict[str, Any]) -> bool:
+    """Whether a printed constraint holds; False if it cannot be read."""
+    member = re.fullmatch(r"\s*(\w+) in (\w+)\s*", text)
+    if member:
+        point, box = given.get(member[1]), given.get(member[2])
+        if (*np.shape(point), 2) != np.shape(box):
+            return False
+        return bool((point >= box[:, 0]).all() and (point <= box[:, 1]).all())
+    try:
+        return holds(text, given)
+    except (DataFileError, ValueError, TypeError):
+        return False
+
+
+def _objective_gap(job: Job, measure: Measure, best: Any) -> float:
+    """Printed objective, aggregated over the seam, less the fitness that was maximised."""
+    found = measures_at(job, measure, best.position)
+    mmr = measures_at(job, replace(measure, objective="mmr"), best.position)
+    given = {"MMR": mmr.system, "M_tight": found.tight, "M_loose": found.loose}
+    try:
+        curve = value(printed_text("pan.eq_opt", "maximize"), given)
+    except DataFileError:
+        return float("inf")
+    return float(abs(measure.reading().aggregate(np.asarray(curve)) - best.fitness))
+
+
+def _nearest_pairs(cell: Cell, jobs: Jobs) -> pd.Series:
+    separation = Separation(cell)
+    pairs = separation.per_pair(jobs.q, jobs.centres)[0]
+    owners = pd.Series(pairs, index=[" - ".join(pair) for pair in separation.owners])
+    return owners.groupby(level=0).min().sort_values()
+
+
+def _nothing_feasible(*keys: str) -> Result:
+    return Result(
+        obtained=dict.fromkeys(keys),
+        caption="No position of the region is feasible, so the problem has no solution.",
+    )

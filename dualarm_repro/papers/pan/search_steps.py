@@ -1,0 +1,179 @@
+"""The loop of the genetic algorithm of `pan`: its chart, its ends, its way with the infeasible."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...view.flow_chart import flow_chart
+from ...view.search_plots import history_figure
+from ...welding import genetic
+from .evolution import stored_runs
+from .ga_trace import Trace, first_stop, traced
+from .nominal import nominal_values
+from .positions import search_box
+from .scenario import Genetic, Job, Measure
+from .studies import RUNS, VARIANTS
+
+checks = partial(REGISTRY.checks, page="pan/search")
+
+
+def declared_trace(**changes: Any) -> Trace:
+    """One run on the declared problem, some settings of the search changed, watched."""
+    values = nominal_values()
+    settings = replace(Genetic.of(values), **changes)
+    return traced(Job.of(values), Measure.of(values), settings, search_box(values))
+
+
+@checks(
+    "pan.fig11",
+    rules=[
+        Is(key="inputs", to="inputs", label="inputs whose effect is seen in a run"),
+        Is(key="steps", to="steps", label="steps seen in a run, in this order"),
+        Is(key="stops", to="stops", label="rules that can end a run"),
+        NoOriginal(key="chart", label="the content of the chart"),
+    ],
+)
+def chart(assumed: Assumed) -> Result:
+    """A run is watched; the chart is drawn from the list of acts that it runs."""
+    trace, adaptive = declared_trace(), declared_trace(ga_mutation="adaptive_feasible")
+    elite, crossed, mutants = trace.settings.counts
+    return Result(
+        obtained={
+            "inputs": seen_inputs(trace),
+            "steps": seen_steps(trace),
+            "stops": seen_stops([trace, adaptive]),
+            "acts": [act.__name__ for act in (genetic.initialise, *genetic.LOOP)],
+        },
+        caption=(
+            f"The loop that is run, drawn from its own functions. In the run watched, of "
+            f"{trace.settings.population} individuals {elite} passed on unchanged, at least "
+            f"{min(trace.crossed)} took every coordinate from a parent ({crossed} crossed) and up "
+            f"to {max(trace.mutated)} were new ({mutants} mutants). The content of the printed "
+            "chart is not in the text edition."
+        ),
+        alt="Flow chart: draw, evaluate, rank, decide, select, reproduce, and back to evaluate.",
+        figure=lambda: flow_chart(genetic.initialise, genetic.LOOP, genetic.finished),
+    )
+
+
+def seen_inputs(trace: Trace) -> list[str]:
+    """Printed inputs of the algorithm whose effect the states of a run show."""
+    elite, crossed, mutants = trace.settings.counts
+    seen = {
+        "fitness function": trace.history[-1].best > trace.history[0].best,
+        "constraints": trace.met < trace.tested and trace.infeasible_passed_on == 0,
+        "number of best individuals kept": set(trace.passed_on) == {elite},
+        "crossover probability": min(trace.crossed) == crossed,
+        "mutation probability": max(trace.mutated) == mutants,
+    }
+    return [name for name, found in seen.items() if found]
+
+
+def seen_steps(trace: Trace) -> list[str]:
+    """Printed steps, in the order in which they first occur in a run."""
+    steps = {
+        "constraints": "constraints of every individual by its joint angles",
+        "fitness": "fitness of those that meet them",
+        "finished": "decision to end",
+        "reproduce": "next generation",
+    }
+    whole = trace.tested == sum(trace.evaluated) and trace.rated == trace.met
+    return [steps[name] for name in dict.fromkeys(trace.order) if name in steps] if whole else []
+
+
+def seen_stops(traces: Sequence[Trace]) -> list[str]:
+    """Printed stop rules that ended one of the runs, each where it first holds."""
+    names = {
+        "generations": "preset number of generations",
+        "stall": "smallest change of the mean fitness",
+    }
+    ended = set()
+    for trace in traces:
+        means = np.array([generation.mean for generation in trace.history])
+        end = first_stop(means, trace.settings.generations, trace.settings.stall)
+        if end == (len(means) - 1, trace.reason):
+            ended.add(trace.reason)
+    return [name for reason, name in names.items() if reason in ended]
+
+
+@checks(
+    "pan.claim_ga_stop",
+    rules=[
+        Bounded(
+            key="other_ends",
+            high=0.0,
+            label="runs that did not end where the printed rules, recomputed, first hold",
+        ),
+        Bounded(key="by_limit", low=1, label="runs ended by the number of generations"),
+        Bounded(key="by_stall", low=1, label="runs ended by the change of the mean fitness"),
+    ],
+)
+def two_stop_rules(assumed: Assumed) -> Result:
+    """Where each stored run ended, and where the printed rules say it has to."""
+    settings = Genetic.of(nominal_values()).settings()
+    other, ends = 0, {}
+    for variant, changes in VARIANTS.items():
+        runs = stored_runs(RUNS, variant)
+        limit, smallest = settings.generations, changes.get("stall", settings.stall)
+        for means, end in zip(runs.histories["mean"], runs.ends, strict=True):
+            other += first_stop(means, limit, smallest) != end
+        ends[variant] = {
+            why: [end[1] for end in runs.ends].count(why) for why in ("generations", "stall")
+        }
+    by_limit, by_stall = (
+        sum(found[why] for found in ends.values()) for why in ("generations", "stall")
+    )
+    told = "; ".join(
+        f"{name}: {found['generations']} by the limit, {found['stall']} by the stall"
+        for name, found in ends.items()
+    )
+    return Result(
+        obtained={"other_ends": other, "by_limit": by_limit, "by_stall": by_stall, "ends": ends},
+        caption=(
+            f"{RUNS} runs of each variant, ended by either rule: {told}. {other} of them "
+            "ended elsewhere than where the printed rules, recomputed from the mean fitness, "
+            "first hold. With mutation that keeps drawing, the mean fitness never rests, so that "
+            "which rule ends a run depends on an operator and a threshold that are not printed."
+        ),
+    )
+
+
+@checks(
+    "pan.claim_discard",
+    rules=[
+        Bounded(
+            key="infeasible_passed_on",
+            high=0.0,
+            label="infeasible individuals that pass on while feasible ones could",
+        ),
+        Bounded(key="best_infeasible", high=0.0, label="runs whose best individual is infeasible"),
+    ],
+)
+def discarded(assumed: Assumed) -> Result:
+    """What becomes of infeasible individuals in a run that is watched."""
+    trace = declared_trace()
+    share = 1 - np.array([[g.feasible for g in trace.history]])
+    parents = trace.infeasible_parents
+    return Result(
+        obtained={
+            "infeasible_passed_on": int(trace.infeasible_passed_on),
+            "best_infeasible": int(trace.history[-1].best <= 0),
+            "first": float(share[0, 0]),
+            "last": float(share[0, -1]),
+            "parents": float(np.mean(parents)),
+        },
+        caption=(
+            f"Of the first generation {share[0, 0]:.0%} violate a constraint, of the last "
+            f"{share[0, -1]:.0%}. {trace.infeasible_passed_on} of them passed on while there were "
+            f"feasible ones enough. As parents they still make up {np.mean(parents):.0%} of those "
+            "selected, because selection by rank leaves a chance to the last."
+        ),
+        alt="Share of infeasible individuals against the generation, falling from nearly one.",
+        figure=lambda: history_figure({"infeasible": share}, "share of the generation"),
+    )

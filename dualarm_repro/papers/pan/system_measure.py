@@ -1,0 +1,196 @@
+"""Equation (16) of `pan` and its weights: the measure of all three robots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
+from ...view.ellipsoids import beta_figure
+from ...welding import Cell, Jobs, Measures
+from ...welding.ellipsoid import (
+    gram_matrices,
+    intersection_volume,
+    intersection_volume_monte_carlo,
+    unit_ball_volume,
+)
+from .coordination import at_display
+from .optimum import optimum
+from .print_forms import printed_text, value, worst
+from .scenario import SEED, Job, Measure, stand_in
+
+checks = partial(REGISTRY.checks, page="pan/measure")
+_MILLI = 1000.0
+_CASES = 20
+_SAME = 1e-9
+
+
+@checks(
+    "pan.eq16",
+    rules=[
+        Bounded(key="residual", high=1e-12, label="printed (16) and the measure used differ by"),
+        Is(
+            key="one_unit",
+            value=False,
+            role=Role.CONTRADICTS,
+            label="by the printed (11), (15) and (16), MMR scales with one power of the length",
+        ),
+    ],
+)
+def system_measure(assumed: Assumed) -> Result:
+    """The printed weighted mean at one position, and what a change of the unit does to it."""
+    job, measure = Job.of(assumed), Measure.of(assumed)
+    _, jobs, _ = at_display(assumed)
+    found = job.placement(measure.reading()).measures(jobs)
+    gap = worst(printed_text("pan.eq16"), [*_cases(found)])
+    powers = unit_powers(job.arm) if gap < _SAME else {}
+    box = tuple(tuple(side) for side in assumed["search_box"])
+    best = {}
+    for unit in ("m", "mm"):
+        changed = Measure(**{**vars(measure), "length_unit": unit})
+        best[unit] = np.abs(optimum(job, changed, box).position)
+    moved = float(np.linalg.norm(best["m"] - best["mm"]))
+    return Result(
+        obtained={
+            "residual": gap,
+            "one_unit": bool(np.ptp(powers["MMR"]) < _SAME) if powers else None,
+            "powers": {name: [min(found), max(found)] for name, found in powers.items()},
+            "moved_by_unit": moved,
+            "best_in_metres": best["m"].tolist(),
+            "best_in_millimetres": best["mm"].tolist(),
+        },
+        caption=_told_powers(powers)
+        + (
+            f" When metres become millimetres the best position moves by {moved:.2f} m, with "
+            "everything else the same (mirror images counted as one)."
+        ),
+    )
+
+
+@checks(
+    "pan.claim_beta_rule",
+    rules=[
+        Is(
+            key="follows_rule",
+            value=True,
+            label="the weights used in (16) are the ratios of the intersection to the ellipsoids",
+        ),
+    ],
+)
+def weights(assumed: Assumed) -> Result:
+    """Ratios by eigenvalues and quadrature, against the weights with which (16) is computed."""
+    cell, jobs, _ = at_display(assumed)
+    measure = Measure.of(assumed).reading()
+    used = Job.of(assumed).placement(measure).measures(jobs)
+    grams = _grams(cell, jobs, 3)
+    volumes = _volumes(grams)
+    common = np.array([intersection_volume(grams[:, n], 2000) for n in range(cell.count)])
+    weighed = _grams(cell, jobs, 6) if measure.space == "full" else grams
+    ratios = common / _volumes(weighed)
+    tight = _merged(measure.carriers, ratios, weighed, common)
+    by_rule = tight / (tight + ratios[2])
+    share = (used.beta_tight / (used.beta_tight + used.beta_loose))[0]
+    gap = float(abs(share - by_rule).max())
+    sampled, error = intersection_volume_monte_carlo(
+        grams[:, 0], 20_000, np.random.default_rng(SEED)
+    )
+    exact = intersection_volume(grams[:, 0])
+    return Result(
+        obtained={
+            "follows_rule": gap < 1e-9,
+            "gap": gap,
+            "monte_carlo": abs(exact - sampled) / error,
+            "volumes": volumes[:, 0].tolist(),
+            "intersection": exact,
+            "mean_share_of_carriers": float(share.mean()),
+        },
+        caption=(
+            "At the first seam point the ellipsoids have volumes "
+            f"{', '.join(f'{v:.2f}' for v in volumes[:, 0])} and a common part of {exact:.2f} "
+            f"(quadrature; Monte Carlo {sampled:.2f} +- {error:.2f}). The share of the carriers "
+            f"in the weights of (16) differs from that of the printed rule by at most {gap:.1e}. "
+            "One intersection stands in every ratio and cancels. What remains are inverse "
+            "volumes, which give the less mobile group the larger say: the carriers have "
+            f"{share.mean():.0%} of the weight on average."
+        ),
+        alt="Volumes of three ellipsoids and of their common part, and weights along the seam.",
+        figure=lambda: beta_figure(volumes, common, share),
+    )
+
+
+def unit_powers(arm_name: str) -> dict[str, list[float]]:
+    """Powers by which the printed measures change when metres become millimetres.
+
+    log(value in mm / value in m) / log(1000) of (11), (15) and (16) as they are printed, at random
+    configurations of three robots and for random weights.
+    """
+    arm, rng = stand_in(arm_name), np.random.default_rng(SEED)
+    single, pair, whole = (
+        printed_text(f"pan.{name}").split("=")[-1] for name in ("eq11", "eq15", "eq16")
+    )
+    powers: dict[str, list[float]] = {"M_tight": [], "M_loose": [], "MMR": []}
+    for _ in range(_CASES):
+        J = arm.jacobian(arm.random_configurations(3, rng))
+        beta = rng.random(2)
+        found = []
+        for scale in (1.0, _MILLI):
+            scaled = J * np.array([scale] * 3 + [1.0] * 3)[:, np.newaxis]
+            given: Mapping[str, float] = {
+                "M_tight": value(pair, {"J_1": scaled[0], "J_2": scaled[1]}),
+                "M_loose": value(single, {"J": scaled[2]}),
+                "beta_1": beta[0],
+                "beta_2": beta[1],
+            }
+            found.append({**given, "MMR": value(whole, given)})
+        for name, entries in powers.items():
+            entries.append(float(np.log(found[1][name] / found[0][name]) / np.log(_MILLI)))
+    return powers
+
+
+def _told_powers(powers: dict[str, list[float]]) -> str:
+    if not powers:
+        return "The printed (16) is not the measure used."
+    low, high = min(powers["MMR"]), max(powers["MMR"])
+    told = (
+        f"With the unit of length M_tight changes by the power {powers['M_tight'][0]:.0f} and "
+        f"M_loose by the power {powers['M_loose'][0]:.0f}; "
+    )
+    if high - low < _SAME:
+        return told + f"MMR changes by the power {low:.0f}."
+    return told + (
+        f"MMR by powers from {low:.2f} to {high:.2f}, which depend on the configuration, so that "
+        "it has no unit and the best position depends on the unit chosen."
+    )
+
+
+def _cases(found: Measures) -> list[dict[str, float]]:
+    names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
+    return [dict(zip(names, map(float, row), strict=True)) for row in np.stack(found)[:, 0].T]
+
+
+def _grams(cell: Cell, jobs: Jobs, rows: int) -> np.ndarray:
+    """J J^T of each robot along the seam (3, N, rows, rows)."""
+    return np.stack(
+        [
+            gram_matrices(
+                arm.chain, cell.bases[k][:3, :3].copy(), jobs.q[0, k], cell.lever_arms[k], rows
+            )
+            for k, arm in enumerate(cell.arms)
+        ]
+    )
+
+
+def _volumes(grams: np.ndarray) -> np.ndarray:
+    """Volumes of the ellipsoids by the product of their semi-axes."""
+    axes = np.sqrt(np.maximum(np.linalg.eigvalsh(grams), 0.0))
+    return unit_ball_volume(grams.shape[-1]) * axes.prod(axis=-1)
+
+
+def _merged(carriers: str, ratios: np.ndarray, grams: np.ndarray, common: np.ndarray) -> np.ndarray:
+    """The weight of the carriers from their two ratios, as one assumption has it."""
+    if carriers == "coupled_pair":
+        pair = np.linalg.inv(np.linalg.inv(grams[0]) + np.linalg.inv(grams[1]))
+        return common / _volumes(pair)
+    return ratios[:2].sum(axis=0) * (0.5 if carriers == "mean" else 1.0)
