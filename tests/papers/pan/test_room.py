@@ -7,8 +7,9 @@ from dualarm_repro.errors import UnknownNameError
 from dualarm_repro.ledger import REGISTRY
 from dualarm_repro.papers.pan.consistency import CONSISTENCY, OBJECTIVES, READINGS, SETS, cells
 from dualarm_repro.papers.pan.coordination import periodic_derivative
+from dualarm_repro.papers.pan.fit import FIT
 from dualarm_repro.papers.pan.nominal import nominal_values
-from dualarm_repro.papers.pan.optimum import optimum, solved
+from dualarm_repro.papers.pan.optimum import optimum, solved, survey
 from dualarm_repro.papers.pan.positions import extreme_position, search_box
 from dualarm_repro.papers.pan.result import reading_table
 from dualarm_repro.papers.pan.scenario import (
@@ -24,7 +25,7 @@ from dualarm_repro.papers.pan.scenario import (
 from dualarm_repro.papers.pan.sensitivity import sensitivity_table
 from dualarm_repro.papers.pan.studies import EVOLUTION, OPTIMISERS, RUNS, SENSITIVITY, TRUTH
 
-STUDIES = (CONSISTENCY, EVOLUTION, OPTIMISERS, SENSITIVITY)
+STUDIES = (CONSISTENCY, EVOLUTION, FIT, OPTIMISERS, SENSITIVITY)
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +89,14 @@ def test_extreme_positions_keep_their_rules(declared):
     assert unsteady.fitness >= (system.std(axis=1) / system.mean(axis=1)).max()
 
 
+def test_survey_is_the_grid_of_the_fitness(declared):
+    job, measure, box = declared
+    grid = survey(job, measure, box)
+    some = np.random.default_rng(5).choice(len(grid.points), 100, replace=False)
+    assert (job.placement(measure.reading())(grid.points[some]) == grid.fitness[some]).all()
+    assert ((grid.fitness > 0) == (grid.status == 0)).all()
+
+
 def test_derivative_of_periodic_samples():
     for count in (24, 25):
         angle = 2 * np.pi * np.arange(count) / count
@@ -100,7 +109,7 @@ def test_derivative_of_periodic_samples():
 def test_studies_are_complete_and_reproduce(registry, study):
     assert REGISTRY.studies[study.name] is study
     assert len(study.load()) == len(study.cells())
-    assert study.spot_check(2, seed=1) == []
+    assert study.spot_check(1 if study is FIT else 2, seed=1) == []
 
 
 def test_consistency_study_covers_what_it_claims(registry):

@@ -1,0 +1,117 @@
+"""What `pan` says of its search and its optimum is judged by rules that can fail."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
+from dualarm_repro.papers.pan.fit import distance, loss
+from dualarm_repro.papers.pan.ga_trace import first_stop
+from dualarm_repro.papers.pan.nominal import nominal_values
+from dualarm_repro.papers.pan.optimum import survey
+from dualarm_repro.papers.pan.positions import search_box
+from dualarm_repro.papers.pan.problem import constraint_disagreements
+from dualarm_repro.papers.pan.result import fitted
+from dualarm_repro.papers.pan.scenario import Job, Measure
+from dualarm_repro.papers.pan.search_steps import (
+    declared_trace,
+    seen_inputs,
+    seen_steps,
+    seen_stops,
+)
+from dualarm_repro.welding import Status
+
+#: A region out of reach of every robot.
+AWAY = {"search_box": [[4.0, 4.2], [4.0, 4.2], [4.0, 4.2]], "ga_generations": 15}
+
+
+@pytest.fixture(scope="module")
+def trace():
+    return declared_trace()
+
+
+def test_welder_stays_near_zero_with_a_bent_and_inclined_torch(registry):
+    """Each change alone does not do it."""
+    bent, inclined = {"torch_crank": 45}, {"torch_axis": "work_angle_45"}
+    both = evaluate(REGISTRY, "pan.claim_near_zero_robot3", bent | inclined)
+    assert both.verdict is Verdict.UNDER_ASSUMPTION
+    for one in ({}, bent, inclined):
+        alone = evaluate(REGISTRY, "pan.claim_near_zero_robot3", one)
+        assert alone.verdict is Verdict.NOT_REPRODUCED
+
+
+def test_a_choice_makes_the_printed_point_the_optimum(registry):
+    limits = {n: t.value for n, t in REGISTRY.look("pan.claim_optimum").thresholds.items()}
+    assert limits["inside_branch"] == REGISTRY.declared("pan.radius_branch", "range").range[0]
+    found = fitted()[0]["values"]
+    assert distance(found) <= limits["inside_branch"]
+    assert loss(found) <= limits["three_digits"]
+    assert evaluate(REGISTRY, "pan.claim_optimum", found).verdict is Verdict.UNDER_ASSUMPTION
+    assert evaluate(REGISTRY, "pan.claim_optimum").verdict is Verdict.NOT_REPRODUCED
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        "claim_constraints",
+        "claim_fitness_converges",
+        "claim_max_mmr",
+        "claim_near_zero_robot3",
+        "claim_optimum",
+        "claim_unstable_b",
+        "eq_opt",
+    ],
+)
+def test_region_without_feasible_position_is_an_outcome(registry, key):
+    assert evaluate(REGISTRY, f"pan.{key}", AWAY).verdict is Verdict.NOT_REPRODUCED
+
+
+def test_weights_are_judged_as_used(registry):
+    for weights in ("equal", "harmonic", "tight_only"):
+        found = evaluate(REGISTRY, "pan.claim_beta_rule", {"weights": weights})
+        assert found.verdict is Verdict.NOT_REPRODUCED
+    for space in ("translational", "full"):
+        for carriers in ("mean", "sum", "coupled_pair"):
+            changes = {"ellipsoid_space": space, "carrier_weight": carriers}
+            assert evaluate(REGISTRY, "pan.claim_beta_rule", changes).verdict.meets_print
+
+
+def test_objective_of_the_carriers_alone_is_not_the_printed_one(registry):
+    found = evaluate(REGISTRY, "pan.eq_opt", {"objective": "tight"})
+    assert found.verdict is Verdict.NOT_REPRODUCED
+
+
+def test_first_stop():
+    rising, resting = np.linspace(1, 2, 40), np.ones(40)
+    assert first_stop(rising, 30, 1e-6) == (30, "generations")
+    assert first_stop(resting, 30, 1e-6) == (10, "stall")
+    assert first_stop(resting, 5, 1e-6) == (5, "generations")
+    assert first_stop(rising[:5], 30, 1e-6) == (5, "none")
+    assert first_stop(np.zeros(40), 30, 1e-6) == (30, "generations")
+
+
+def test_trace_shows_what_the_run_did(trace):
+    _, crossed, mutants = trace.settings.counts
+    assert trace.order[0] == "initialise"
+    assert trace.evaluated[0] == trace.settings.population
+    assert set(trace.evaluated[1:]) == {crossed + mutants}
+    assert trace.rated == trace.met < trace.tested
+
+
+def test_steps_that_are_not_run_are_not_seen(trace):
+    assert "crossover probability" not in seen_inputs(replace(trace, crossed=[0]))
+    assert "constraints" not in seen_inputs(replace(trace, infeasible_passed_on=1))
+    assert seen_steps(replace(trace, rated=trace.tested)) == []
+    assert seen_steps(replace(trace, order=trace.order[::-1])) != seen_steps(trace)
+    assert seen_stops([trace]) == ["preset number of generations"]
+    assert seen_stops([replace(trace, history=trace.history[:-1])]) == []
+
+
+def test_a_wrong_status_is_found(registry):
+    values = nominal_values()
+    job, box = Job.of(values), search_box(values)
+    grid = survey(job, Measure.of(values), box)
+    assert constraint_disagreements(job, grid.points, grid.status, np.array(box)) == 0
+    swapped = np.where(grid.status == Status.COLLISION, Status.FEASIBLE, Status.COLLISION)
+    assert constraint_disagreements(job, grid.points, swapped, np.array(box)) > 0
