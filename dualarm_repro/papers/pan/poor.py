@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
 from ...tracking import memo
 from ...view.seam_curves import measures_figure
 from ...welding import WELDER, Cell, Jobs, Measures, closed_form
@@ -50,7 +50,7 @@ def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
     @checks(
         item,
         rules=[
-            Bounded(
+            Residual(
                 key="recomputed",
                 high=1e-12,
                 label="drawn manipulabilities and sqrt(det(J J^T)) of the joint paths differ by",

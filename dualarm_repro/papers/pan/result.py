@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
 from ...tracking import memo
 from ...view.landscape import readings_figure
 from ...view.seam_curves import joints_figure, measures_figure
@@ -138,7 +138,7 @@ def _told_fit(witnesses: list[dict[str, Any]]) -> str:
 @checks(
     "pan.fig16",
     rules=[
-        Bounded(
+        Residual(
             key="aggregated",
             high=1e-12,
             label="the drawn system measure, aggregated, and the fitness of the optimum differ by",
@@ -172,7 +172,7 @@ def optimal_curves(assumed: Assumed) -> Result:
 @checks(
     "pan.fig17",
     rules=[
-        Bounded(
+        Residual(
             key="carried",
             high=1e-9,
             label="flange poses of the drawn joint angles and those of the job differ by",

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
+from ...ledger import REGISTRY, Assumed, Is, Residual, Result, Role
 from ...view.ellipsoids import beta_figure
 from ...welding import Cell, Jobs, Measures
 from ...welding.ellipsoid import (
@@ -30,7 +30,7 @@ _SAME = 1e-9
 @checks(
     "pan.eq16",
     rules=[
-        Bounded(key="residual", high=1e-12, label="printed (16) and the measure used differ by"),
+        Residual(key="residual", high=1e-12, label="printed (16) and the measure used differ by"),
         Is(
             key="one_unit",
             value=False,

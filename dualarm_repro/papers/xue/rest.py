@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, Result, Role
+from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result, Role
 from ...planning.problem import problem
 from ...planning.termination import StopReason
 from ...tracking import memo
@@ -24,7 +24,7 @@ checks = partial(REGISTRY.checks, page="xue/table2")
 @checks(
     "xue.claim_stop_zero",
     rules=[
-        Bounded(
+        Residual(
             key="at_goal", high=1e-9, label="potential at a goal out of every obstacle's range"
         ),
         Bounded(

@@ -10,7 +10,7 @@ from dualarm_repro.papers.pan.coordination import periodic_derivative
 from dualarm_repro.papers.pan.fit import FIT
 from dualarm_repro.papers.pan.nominal import nominal_values
 from dualarm_repro.papers.pan.optimum import optimum, solved, survey
-from dualarm_repro.papers.pan.positions import extreme_position, search_box
+from dualarm_repro.papers.pan.positions import _first_of_equals, extreme_position, search_box
 from dualarm_repro.papers.pan.result import reading_table
 from dualarm_repro.papers.pan.scenario import (
     Genetic,
@@ -26,6 +26,7 @@ from dualarm_repro.papers.pan.sensitivity import sensitivity_table
 from dualarm_repro.papers.pan.studies import EVOLUTION, OPTIMISERS, RUNS, SENSITIVITY, TRUTH
 
 STUDIES = (CONSISTENCY, EVOLUTION, FIT, OPTIMISERS, SENSITIVITY)
+from dualarm_repro.welding import Optimum
 
 
 @pytest.fixture(scope="module")
@@ -142,3 +143,14 @@ def test_shoulder_height_moves_the_optimum_up_one_to_one(registry):
     shift = rows["value"].astype(float) - nominal_values()["shoulder_height"]
     assert len(rows) > 1
     assert np.allclose(rows["z"] - nominal["z"], shift, atol=2e-3)
+
+
+def test_round_off_does_not_choose_between_mirror_images():
+    left, right = (np.array([x, 0.1, 0.2]) for x in (-0.2, 0.2))
+    for nearly in (1.0 - 1e-14, 1.0, 1.0 + 1e-14):
+        ends = [Optimum(left, 1.0, 3), Optimum(right, nearly, 4), Optimum(left, 0.9, 5)]
+        for order in (ends, ends[::-1]):
+            best = _first_of_equals(order)
+            assert best.position.tolist() == right.tolist()
+            assert best.evaluations == 12
+    assert _first_of_equals([Optimum(left, 1.0, 1), Optimum(right, 0.999, 1)]).position[0] < 0
