@@ -24,9 +24,9 @@ from dualarm_repro.papers.pan.scenario import (
 )
 from dualarm_repro.papers.pan.sensitivity import sensitivity_table
 from dualarm_repro.papers.pan.studies import EVOLUTION, OPTIMISERS, RUNS, SENSITIVITY, TRUTH
+from dualarm_repro.welding import Optimum
 
 STUDIES = (CONSISTENCY, EVOLUTION, FIT, OPTIMISERS, SENSITIVITY)
-from dualarm_repro.welding import Optimum
 
 
 @pytest.fixture(scope="module")
