@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from typing import Any
 
 from .printed import leaves
@@ -21,7 +22,8 @@ from .schema import Item
 class Comparison:
     """How the values at one path below ``obtained`` are compared with their reference.
 
-    ``path`` is dotted. It covers what is below it, and ``*`` stands for any one key or index.
+    ``path`` is dotted. It covers what is below it; ``*`` stands for any one key or index, or for
+    any part of one.
     """
 
     path: str
@@ -34,7 +36,7 @@ class Comparison:
         """Whether a leaf at ``path``, the keys below ``obtained``, is compared in this way."""
         parts = self.path.split(".")
         return len(parts) <= len(path) and all(
-            part in ("*", str(key)) for part, key in zip(parts, path, strict=False)
+            fnmatchcase(str(key), part) for part, key in zip(parts, path, strict=False)
         )
 
     def same(self, a: Any, b: Any) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...ledger import REGISTRY, Study
 from .chosen import CASE, Chosen, assumption, nominal
+from .delicate import DESCENTS
 from .lottery import RANGES, random_case
 from .trials import METHODS, TRIALS, outcomes, starts
 
@@ -58,6 +59,7 @@ ABLATION = REGISTRY.keeps(
         title="Joint term, virtual point and its switching, point and five-point repulsion apart",
         cells=_cells,
         compute=ablation_cell,
+        compared=DESCENTS,
         seed=20200345,
         settings=Chosen(
             (*CASE, "meeting_distance", "trial_perturbation"),

@@ -20,6 +20,7 @@ from ...ledger.streams import stream
 from ...planning.problem import problem
 from ...tracking import memo
 from .chosen import KEPT, Chosen, nominal
+from .delicate import DESCENTS
 from .layout import placed_slave
 from .lottery import LAYOUTS, LOTTERY, RANGES, draw
 from .motions import attempt, slave_obstacles
@@ -75,6 +76,7 @@ COMPARISON = REGISTRY.keeps(
         title="Random arrangements: starts of the trials in contact, paths of both methods",
         cells=_cells,
         compute=comparison_cell,
+        compared=DESCENTS,
         seed=SEED,
         settings=Chosen((*KEPT,), trials=TRIALS, ranges=RANGES),
     )

@@ -15,6 +15,7 @@ import numpy as np
 from ...ledger import REGISTRY, Study
 from ...planning.problem import problem
 from .chosen import KEPT, Chosen, assumption, nominal
+from .delicate import DESCENTS
 from .facts import flange_to_window, flanges_apart, flanges_apart_moving, points_to_window
 from .layout import Layout, placed_master, placed_slave
 from .methods import improved
@@ -183,6 +184,7 @@ LOTTERY = REGISTRY.keeps(
         ),
         cells=_cells,
         compute=lottery_cell,
+        compared=DESCENTS,
         seed=20200344,
         settings=Chosen(
             (*KEPT, "meeting_distance", "trial_perturbation"),

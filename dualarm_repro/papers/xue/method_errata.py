@@ -104,10 +104,9 @@ def virtual_point_credit() -> Proof:
 def stop_at_zero() -> Proof:
     """Where a trapped run stands still the potential is positive."""
     obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
-    zero = REGISTRY.look("xue.claim_stop_zero", "thresholds").thresholds["above_zero"].value
     return Proof(
         "where a run stands still short of the goal the gradient vanishes, not the potential",
-        obtained["at_trap"] > zero and obtained["gradient"] < FLAT,
+        obtained["at_trap"] > obtained["off_goal"] > 0.0 and obtained["gradient"] < FLAT,
         obtained,
     )
 

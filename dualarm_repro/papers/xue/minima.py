@@ -12,6 +12,7 @@ from ...arms import load_arm
 from ...ledger import REGISTRY, Study
 from ...planning.potentials import JointAttraction, PositionAttraction, Sum
 from ...scene import PlacedArm
+from .delicate import MINIMA
 from .scenario import GAINS
 
 PAIRS = 40
@@ -63,6 +64,7 @@ MINIMA = REGISTRY.keeps(
         title="Minima of (13) without obstacles, over the weight of the joint term",
         cells=_cells,
         compute=minima_cell,
+        compared=MINIMA,
         seed=20200347,
         settings={"pairs": PAIRS, "weights": WEIGHTS, "arrived": ARRIVED, "flat": FLAT},
     )

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...ledger import REGISTRY, Study
 from .chosen import CASE, Chosen, assumption, nominal
+from .delicate import DESCENTS
 from .trials import outcomes, starts
 
 #: Blocks of trials per rule; the search over 729 neighbours takes ten times as long.
@@ -40,6 +41,7 @@ REPEATED = REGISTRY.keeps(
         title="Trials of both methods in the nominal arrangement, per rule of the joint step",
         cells=_cells,
         compute=repeated_cell,
+        compared=DESCENTS,
         seed=20200346,
         settings=Chosen((*CASE, "trial_perturbation"), blocks=BLOCKS, block=BLOCK),
     )
