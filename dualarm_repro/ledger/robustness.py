@@ -30,8 +30,8 @@ SEED = 20200344
 #: In place of a verdict where the computation refuses the values drawn.
 NOT_COMPUTABLE = "not-computable"
 #: Steps from the nominal value to each end of a range before bisection.
-_SCAN = 4
-_BISECTIONS = 8
+_SCAN = 2
+_BISECTIONS = 6
 #: Other draws at which a change of one assumption is tried if it moves nothing at the nominal ones.
 _BASES = 6
 #: Relative change by which a number without a declared range is probed.

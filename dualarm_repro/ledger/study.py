@@ -20,7 +20,7 @@ import numpy as np
 
 from ..datafiles import data_path, opened
 from ..errors import DataFileError, InputError, LedgerError
-from ..tracking import recording
+from ..tracking import note, recording
 from .closure import closure, hash_file, hash_inputs
 from .comparison import Comparison
 from .drift import differences
@@ -222,10 +222,10 @@ class Study:
         """
         import pandas as pd
 
-        self.meta()
-        status = self.status()
+        meta, status = self.meta(), self.status()
         if status != "up to date":
             raise LedgerError(f"{self.name}: {status}; run `dualarm study {self.name}`")
+        note(*meta["inputs"])
         return pd.read_parquet(opened(self.table_path))
 
     def spot_check(self, count: int, seed: int, kind: str | None = None) -> list[str]:

@@ -116,17 +116,18 @@ def hull_claim(assumed: Assumed) -> Result:
     keys = [f"{p}_{ratio:g}_{judged}" for p in PAIR_POINTS for ratio in PAIR_RATIOS]
     cells = table.melt(id_vars="pair", value_vars=keys, var_name="reading", value_name="planned")
     planned = cells["planned"].astype(bool)
+    obtained = {
+        "effective": {"count": int(planned.sum()), "of": len(cells)},
+        "operations_ratio": hull_cost / capsule_cost,
+        "judged_by": judged,
+        "median_protrusion": float(np.median(sticking.max(axis=1))),
+        "largest_protrusion": float(sticking.max()),
+        "protrusion_by_link": dict(
+            zip(links_of(arm.arm).names, sticking.max(axis=0).tolist(), strict=True)
+        ),
+    }
     return Result(
-        obtained={
-            "effective": {"count": int(planned.sum()), "of": len(cells)},
-            "operations_ratio": hull_cost / capsule_cost,
-            "judged_by": judged,
-            "median_protrusion": float(np.median(sticking.max(axis=1))),
-            "largest_protrusion": float(sticking.max()),
-            "protrusion_by_link": dict(
-                zip(links_of(arm.arm).names, sticking.max(axis=0).tolist(), strict=True)
-            ),
-        },
+        obtained=obtained,
         measured=_times(arm, track, q),
         caption=(
             f"Judged by the {judged}, {planned.mean():.0%} of {len(cells)} searches around the "
@@ -137,7 +138,7 @@ def hull_claim(assumed: Assumed) -> Result:
             f"links stick out of it by {1e3 * np.median(sticking.max(axis=1)):.0f} mm in the "
             f"median and {1e3 * sticking.max():.0f} mm at most."
         ),
-        witnesses=witnesses(cells, planned, ("pair", "reading")),
+        witnesses=witnesses("qiu.claim_hull_valid", obtained, cells, planned, ("pair", "reading")),
     )
 
 

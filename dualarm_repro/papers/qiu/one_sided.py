@@ -160,14 +160,15 @@ def lambda_effect(assumed: Assumed) -> Result:
     share = loud[f"{measure}_variable"] / loud[f"{measure}_constant"]
     calmed = share <= limits["clearly"].value
     middle = float(share.median()) if len(loud) else None
+    obtained = {
+        "calmed": {"count": int(calmed.sum()), "of": len(loud)},
+        "median_ratio": middle,
+        "tasks": len(table),
+        "ratio": ratio,
+        "measure": measure,
+    }
     return Result(
-        obtained={
-            "calmed": {"count": int(calmed.sum()), "of": len(loud)},
-            "median_ratio": middle,
-            "tasks": len(table),
-            "ratio": ratio,
-            "measure": measure,
-        },
+        obtained=obtained,
         caption=(
             f"At eta_0/zeta = {ratio:g} the one-way search chatters in {len(loud)} of {len(table)} "
             f"random tasks by the measure {measure}; the variable gain brings the chatter to "
@@ -175,6 +176,8 @@ def lambda_effect(assumed: Assumed) -> Result:
             + (f", in the median to {middle:.0%}." if middle is not None else ".")
         ),
         witnesses=witnesses(
+            "qiu.claim_lambda_effect",
+            obtained,
             loud,
             calmed,
             ("task", "gain_rule", "kappa", f"{measure}_constant", f"{measure}_variable"),

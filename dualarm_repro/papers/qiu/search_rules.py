@@ -216,15 +216,16 @@ def adaptive_efficiency(assumed: Assumed) -> Result:
     medians = {name: float(both[f"searches_{name}"].median()) for name in ("constant", rule)}
     reached = {name: int(table[f"reached_{name}"].sum()) for name in STEP_RULES}
     cost = both[f"searches_{rule}"] / both["searches_constant"]
+    obtained = {
+        "faster": {"count": int(faster.sum()), "of": len(both)},
+        "median_searches": medians,
+        "median_ratio": float(cost.median()),
+        "solved": reached,
+        "tasks": len(table),
+        "ratio": ratio,
+    }
     return Result(
-        obtained={
-            "faster": {"count": int(faster.sum()), "of": len(both)},
-            "median_searches": medians,
-            "median_ratio": float(cost.median()),
-            "solved": reached,
-            "tasks": len(table),
-            "ratio": ratio,
-        },
+        obtained=obtained,
         caption=(
             f"At eta_0/zeta = {ratio:g} both steps solve {len(both)} of {len(table)} random tasks; "
             f"the adaptive one ({rule}) needs fewer searches in {int(faster.sum())} of them, in "
@@ -232,5 +233,11 @@ def adaptive_efficiency(assumed: Assumed) -> Result:
             + ", ".join(f"{count} ({name})" for name, count in reached.items())
             + "."
         ),
-        witnesses=witnesses(both, faster, ("task", "searches_constant", f"searches_{rule}")),
+        witnesses=witnesses(
+            "qiu.claim_steps_efficiency",
+            obtained,
+            both,
+            faster,
+            ("task", "searches_constant", f"searches_{rule}"),
+        ),
     )

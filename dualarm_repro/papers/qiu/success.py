@@ -72,14 +72,15 @@ def table_2(assumed: Assumed) -> Result:
     shown = pd.DataFrame(rows)
     face = shown[(shown["control points"] == _POINTS) & (shown["eta_0/zeta"] == ETA0 / ZETA)]
     face = {row["method"]: row for row in face.to_dict("records")}
+    obtained = {
+        "goals": int(table.goals.min()),
+        "better": {"count": int(better.sum()), "of": len(table)},
+        "seeds": sorted(int(seed) for seed in table.goal_seed.unique()),
+        "judged_by": JUDGED_BY[rule],
+        "face_value": face,
+    }
     return Result(
-        obtained={
-            "goals": int(table.goals.min()),
-            "better": {"count": int(better.sum()), "of": len(table)},
-            "seeds": sorted(int(seed) for seed in table.goal_seed.unique()),
-            "judged_by": JUDGED_BY[rule],
-            "face_value": face,
-        },
+        obtained=obtained,
         table=shown,
         caption=(
             f"{table.goals.min()} goals with each of {table.goal_seed.nunique()} seeds. With the "
@@ -97,13 +98,17 @@ def table_2(assumed: Assumed) -> Result:
         "by the "
         "planner and in truth, with bands of uncertainty and the printed ratio marked.",
         figure=_sweep_figure,
-        witnesses=_cell_witnesses(table, better, rule),
+        witnesses=_cell_witnesses("qiu.tab02", obtained, table, better, rule),
     )
 
 
-def _cell_witnesses(table: pd.DataFrame, better: pd.Series, rule: str) -> list[dict[str, Any]]:
+def _cell_witnesses(
+    item_id: str, obtained: dict[str, Any], table: pd.DataFrame, better: pd.Series, rule: str
+) -> list[dict[str, Any]]:
     judged = JUDGED_BY[rule]
-    return witnesses(table, better, (*_SHOWN, f"traditional_{judged}", f"VAB_{judged}"))
+    return witnesses(
+        item_id, obtained, table, better, (*_SHOWN, f"traditional_{judged}", f"VAB_{judged}")
+    )
 
 
 def _sweep_figure() -> Any:
@@ -181,18 +186,16 @@ def success_and_smoothness(assumed: Assumed) -> Result:
     ratios = {s: float((shown[f"improved_{s}"] / shown[f"traditional_{s}"]).median())
               for s in _SPACES}  # fmt: skip
     at_start = float(np.linalg.svd(placed("master").arm.jacobian(START), compute_uv=False)[-1])
+    obtained = {
+        "better": {"count": int(better.sum()), "of": len(table)},
+        **{f"smoother_{s}": {"count": int(smoother[s].sum()), "of": len(shown)} for s in _SPACES},
+        "singular_value": least if len(shown) else None,
+        "bending_ratio": ratios,
+        "judged_by": JUDGED_BY[rule],
+        "singular_value_at_the_printed_start": at_start,
+    }
     return Result(
-        obtained={
-            "better": {"count": int(better.sum()), "of": len(table)},
-            **{
-                f"smoother_{s}": {"count": int(smoother[s].sum()), "of": len(shown)}
-                for s in _SPACES
-            },
-            "singular_value": least if len(shown) else None,
-            "bending_ratio": ratios,
-            "judged_by": JUDGED_BY[rule],
-            "singular_value_at_the_printed_start": at_start,
-        },
+        obtained=obtained,
         table=shown,
         caption=(
             f"Judged by the {JUDGED_BY[rule]}, the improved method has the higher rate in "
@@ -205,7 +208,7 @@ def success_and_smoothness(assumed: Assumed) -> Result:
             f"start, all joints zero, the smallest of the whole Jacobian is {at_start:.0e}, since "
             "axes 4 and 6 are aligned there."
         ),
-        witnesses=_cell_witnesses(table, better, rule),
+        witnesses=_cell_witnesses("qiu.claim_success_rate", obtained, table, better, rule),
     )
 
 
@@ -236,15 +239,16 @@ def local_minima(assumed: Assumed) -> Result:
     kinds = {kind: table[failure == str(kind)] for kind in Failure}
     solved = {kind: rows[f"B_{ratio:g}_{judged}"].astype(bool) for kind, rows in kinds.items()}
     minima, rescued = kinds[Failure.MIDWAY_MINIMUM], solved[Failure.MIDWAY_MINIMUM]
+    obtained = {
+        "rescued": {"count": int(rescued.sum()), "of": len(minima)},
+        "scenes": len(table),
+        "ratio": ratio,
+        "judged_by": judged,
+        "failures": {str(kind): len(rows) for kind, rows in kinds.items()},
+        "solved_from_both_ends": {str(k): int(found.sum()) for k, found in solved.items()},
+    }
     return Result(
-        obtained={
-            "rescued": {"count": int(rescued.sum()), "of": len(minima)},
-            "scenes": len(table),
-            "ratio": ratio,
-            "judged_by": judged,
-            "failures": {str(kind): len(rows) for kind, rows in kinds.items()},
-            "solved_from_both_ends": {str(k): int(found.sum()) for k, found in solved.items()},
-        },
+        obtained=obtained,
         caption=(
             f"In {len(table)} random scenes at eta_0/zeta = {ratio:g} the one-way search fails "
             + ", ".join(f"{len(rows)} times as {kind}" for kind, rows in kinds.items())
@@ -252,5 +256,5 @@ def local_minima(assumed: Assumed) -> Result:
             + ", ".join(f"{int(found.sum())} of the {kind}" for kind, found in solved.items())
             + "."
         ),
-        witnesses=witnesses(minima, rescued, ("scene", "spheres")),
+        witnesses=witnesses("qiu.claim_local_min", obtained, minima, rescued, ("scene", "spheres")),
     )
