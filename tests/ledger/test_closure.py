@@ -29,7 +29,7 @@ def clone(tmp_path_factory):
 
 
 def digests(folder, roots_of):
-    tree = Graph(folder)
+    tree = Graph(folder, folder.parent / "index.json")
     return {name: tree.digest(tree.closure(modules, carries)) for name, modules in roots_of.items()}
 
 

@@ -19,6 +19,7 @@ SHARE = 0.5 * (EDGE + 2**0.5) / 4
 @pytest.fixture
 def make(tmp_path, monkeypatch):
     monkeypatch.setattr(study, "data_path", lambda *parts: tmp_path.joinpath("data", *parts))
+    monkeypatch.chdir(tmp_path)  # where unfinished runs are kept
 
     def registry(text=YAML, rules=None, compute=None, item="toy.claim_area"):
         toy = toy_registry(tmp_path, text)
