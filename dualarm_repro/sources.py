@@ -43,7 +43,7 @@ class Module(NamedTuple):
 
 
 class Graph:
-    """The modules below one package folder, read when they are asked for.
+    """The modules below one package folder.
 
     Source that is edited while a process runs is not what the process runs, so each file is read
     once.
@@ -139,9 +139,13 @@ class Graph:
 
 @cache
 def graph() -> Graph:
-    """The graph of this package."""
+    """The graph of this package, all of it read at once: as near as can be to what is running."""
     folder = cache_folder()
-    return Graph(Path(__file__).resolve().parent, folder / "sources.json" if folder else None)
+    found = Graph(Path(__file__).resolve().parent, folder / "sources.json" if folder else None)
+    for name in found.files:
+        found.module(name)
+    found.save()
+    return found
 
 
 def _read_index(path: Path | None) -> dict[str, Any]:
