@@ -35,6 +35,16 @@ def recording() -> Iterator[set[str]]:
         _OPEN.reset(token)
 
 
+@contextmanager
+def unnoted() -> Iterator[None]:
+    """Read without noting: for what is read whole and noted by the parts that are used."""
+    token = _OPEN.set(())
+    try:
+        yield
+    finally:
+        _OPEN.reset(token)
+
+
 def touches(name: str, changed: str) -> bool:
     """Whether a change of one input changes another: one is, or is a part of, the other."""
     return name == changed or _within(name, changed) or _within(changed, name)

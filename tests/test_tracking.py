@@ -1,7 +1,7 @@
 """Inputs are noted, also where a memo answers."""
 
 from dualarm_repro import load_arm
-from dualarm_repro.tracking import memo, note, recording
+from dualarm_repro.tracking import memo, note, recording, unnoted
 
 
 def test_recordings_nest():
@@ -44,3 +44,14 @@ def test_loading_an_arm_notes_its_files():
     with recording() as found:
         load_arm("es165d-slave")
     assert found == {"robots/es165d-slave.yaml", "robots/es165d.yaml"}
+
+
+def test_a_document_that_is_read_on_the_way_is_noted_by_the_parts_that_are_used():
+    from dualarm_repro.ledger import Registry
+
+    with recording() as found:
+        Registry().printed("xue.tab01")
+    assert found == {"papers/xue.yaml#items.tab01.printed"}
+    with recording() as found, unnoted():
+        note("a")
+    assert found == set()

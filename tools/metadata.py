@@ -39,6 +39,8 @@ _FOLDERS = {
     ("data/scenes", "*.yaml"): "Scene or task {}",
     ("data/results", "*.json"): "Reference results or settings of a stored study: {}",
     ("data/results", "*.parquet"): "Cells of the stored study {}",
+    ("data/results/robustness", "*.json"): "Settings of the draws behind the verdict on {}",
+    ("data/results/robustness", "*.parquet"): "Draws behind the verdict on {}",
 }
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
-from ..tracking import forget, note
+from ..tracking import forget, note, unnoted
 from .result import Assumed, Proof, Result
 from .rules import Rule
 from .schema import Assumption, Erratum, Item, PaperFile, load_paper
@@ -83,7 +83,8 @@ class Registry:
     def _read(self, name: str) -> None:
         if name not in self._papers:
             path = (self._folder or data_path("papers")) / f"{name}.yaml"
-            paper = load_paper(path)
+            with unnoted():  # a computation depends on the parts that it asks for
+                paper = load_paper(path)
             if paper.document.id != name:
                 raise LedgerError(f"{path.name}: document.id is {paper.document.id!r}")
             self._papers[name] = paper

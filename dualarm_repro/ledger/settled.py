@@ -82,7 +82,7 @@ def settle(registry: Registry, evaluation: Evaluation, verdict_of: Callable[[str
         for grave in _PRECEDENCE:
             deciding = [name for name, verdict in verdicts.items() if verdict == grave]
             if deciding:
-                return Settled(grave, found.witnesses, found.robustness, found.search, deciding[0])
+                return replace(found, verdict=grave, decided_by=deciding[0])
     return found
 
 

@@ -18,6 +18,7 @@ DISTRIBUTIONS = {
     "mpl_toolkits": ("matplotlib",),
     "ompl": ("ompl",),
     "pinocchio": ("pin",),
+    "umsgpack": ("u-msgpack-python",),
     "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp", "quadprog"),
     "yaml": ("pyyaml",),
 }
