@@ -19,7 +19,7 @@ from .verdict import Verdict, decide
 class Evaluation:
     """One item, its result and verdict; ``result`` is None for an item that is not attempted.
 
-    ``inputs`` are those that the computation itself read, see :mod:`..tracking`.
+    ``inputs`` are those that the computation itself read, see ``tracking``.
     """
 
     item_id: str
@@ -73,7 +73,7 @@ def evaluate(
 ) -> Evaluation:
     """Compute an item at one choice of its assumptions, and judge it there.
 
-    The inputs that are read are noted, see :mod:`..tracking`.
+    The inputs that are read are noted, see ``tracking``.
 
     Raises
     ------

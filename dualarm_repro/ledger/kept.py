@@ -62,7 +62,7 @@ def keep(
     roots
         Modules whose closure the value depends on.
     inputs
-        Names of the inputs that were opened, see :func:`..tracking.note`.
+        Names of the inputs that were opened, see ``tracking.note``.
     drawn
         Whether the code that draws counts as well.
     """

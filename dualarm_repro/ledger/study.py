@@ -196,7 +196,7 @@ class Study:
         return found
 
     def status(self) -> str:
-        """``up to date``, ``missing``, or ``stale: `` with what has changed."""
+        """``up to date``, ``missing``, or ``stale`` with what has changed."""
         if not self.meta_path.is_file() or not self.table_path.is_file():
             return "missing"
         try:

@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 from ...errors import LedgerError
 from ..registry import Registry
-from .assumed import assumed
-from .obtained import obtained
-from .printed import printed
-from .tally import Tally
+from .by_assumed import assumed
+from .by_obtained import obtained
+from .by_printed import printed
+from .counts import Tally
 
 DIRECTIONS: dict[str, Callable[[Registry, str], Tally]] = {
     "obtained": obtained,

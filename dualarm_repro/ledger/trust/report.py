@@ -10,7 +10,7 @@ from typing import Any
 from ...datafiles import data_path, opened
 from ...errors import DataFileError
 from ...sources import graph
-from .tally import Tally
+from .counts import Tally
 
 
 def report_path() -> Path:

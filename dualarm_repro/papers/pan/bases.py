@@ -73,7 +73,7 @@ def matrix(assumed: Assumed) -> Result:
 
 
 def label_reading(label: str) -> str:
-    """How :func:`dualarm_repro.welding.base_poses` has to read a matrix of that label.
+    """How ``base_poses`` has to read a matrix of that label.
 
     By (6) and (8) T_ab carries coordinates from b to a: T_B1w from the world to base 1.
 

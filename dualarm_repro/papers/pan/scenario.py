@@ -180,7 +180,7 @@ def placed_bases(reading: str, orientation: str) -> np.ndarray:
     Parameters
     ----------
     reading : str
-        As in :func:`dualarm_repro.welding.base_poses`.
+        As in ``base_poses``.
     orientation : str
         ``identity``, or ``facing_workpiece``: the x axis points to the axis z of the world.
     """

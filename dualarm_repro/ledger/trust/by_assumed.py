@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..registry import Registry
 from ..robustness import NOT_COMPUTABLE, study_of
-from .tally import Tally
+from .counts import Tally
 
 
 def assumed(registry: Registry, item_id: str) -> Tally:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..evaluation import evaluate
 from ..mutation import insensitive
 from ..registry import Registry
-from .tally import Tally
+from .counts import Tally
 
 
 def obtained(registry: Registry, item_id: str) -> Tally:

@@ -17,8 +17,8 @@ from ..registry import Registry
 from ..robustness import judged
 from ..rules import Outcome, Rounds, Rule
 from ..verdict import Verdict, decide
+from .counts import Tally
 from .nonsense import agreeing, cells, formulas, moved, nonsense, other_cell, other_digit
-from .tally import Tally
 
 _CONTRARY = (Verdict.INCONSISTENT, Verdict.NOT_REPRODUCED, Verdict.UNDECIDABLE)
 
