@@ -118,6 +118,12 @@ def page_key(page: Path) -> str:
     return sha256("\0".join(parts).encode()).hexdigest()
 
 
+def _imports(page: Path) -> int:
+    """How many modules of the library a page uses beside those that show what is kept."""
+    text = page.read_text(encoding="utf-8")
+    return len(set(re.findall(r"^from dualarm_repro\.(?!papers import show)([\w.]+)", text, re.M)))
+
+
 def drop_changed(cache: Any, pages: Iterable[Path], keys_file: Path) -> None:
     """Remove from the notebook cache every page whose key has changed since it was executed.
 
@@ -145,7 +151,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
         Page to traceback, for each notebook that failed.
     """
     cache = get_cache(cache_folder)
-    pages = notebooks(book)
+    pages = sorted(notebooks(book), key=_imports, reverse=True)  # those that compute most first
     drop_changed(cache, pages, cache_folder / "pages.json")
     uris = [str(page) for page in pages]
     for uri in uris:

@@ -10,7 +10,7 @@ from ..ledger.spot import Spot, seed_of_code, spot_check, spot_check_robustness
 from .page import Page
 
 #: Cells of every study, and items with one draw each, that a build recomputes.
-CELLS, ITEMS = 3, 24
+CELLS, ITEMS = 1, 12
 
 
 def studies_page(registry: Registry, cells: int = CELLS, seed: int | None = None) -> Page:
