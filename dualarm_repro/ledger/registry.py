@@ -10,6 +10,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from pydantic_core import to_jsonable_python
+
 from ..datafiles import data_path
 from ..errors import LedgerError, UnknownNameError
 from ..tracking import forget, note, unnoted
@@ -237,10 +239,10 @@ class Registry:
         path, _, fields = name.partition("#")
         document = Path(path).stem
         self._read(document)
-        found: Any = self._papers[document].model_dump(mode="json")
+        found: Any = self._papers[document]
         for field in fields.split(".") if fields else ():
-            found = found.get(field) if isinstance(found, dict) else None
-        return found
+            found = found.get(field) if isinstance(found, dict) else getattr(found, field, None)
+        return to_jsonable_python(found)
 
     @contextmanager
     def with_printed(self, item_id: str, value: Any) -> Iterator[None]:
