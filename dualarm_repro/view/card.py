@@ -118,8 +118,9 @@ def _source_link(place: dict[str, Any], root: str) -> str:
     if place["line"] is None or not place["file"].startswith("dualarm_repro/"):
         return f"<code>{name}</code>"
     page = place["file"].removesuffix(".py").removesuffix("/__init__")
-    anchor = place["function"].partition(".<locals>")[0]
-    return f'<a href="{root}_modules/{page}.html#{anchor}"><code>{name}</code></a>'
+    outer = place["function"].partition(".<locals>")[0]
+    anchor = "" if outer.startswith("_") else f"#{outer}"  # only what is public is marked there
+    return f'<a href="{root}_modules/{page}.html{anchor}"><code>{name}</code></a>'
 
 
 def card_figure(made: dict[str, Any]) -> Any:
