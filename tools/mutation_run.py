@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from shutil import copytree, ignore_patterns
+from signal import SIGINT, SIGKILL, SIGTERM, SIGXCPU
 from typing import Any
 
 import yaml
@@ -23,6 +24,8 @@ ROOMS = tuple(f"{PACKAGE}/{room}" for room in ("arms", "scene", "planning", "con
 SEED, PER_ROOM = 20200344, 8
 #: CPU seconds that the checks of one mutant, and its tests, may take.
 LIMIT, TEST_LIMIT = 240, 600
+#: A process that waits so many times its CPU seconds is stuck, which is an error and no kill.
+STALLED = 20
 #: CPU seconds that all checks may take without a mutant.
 BASE_LIMIT = 1800
 #: What is computed again for a mutant: at most so many cells and items, none dearer than that.
@@ -82,6 +85,7 @@ class Copy:
             text=True,
             preexec_fn=limited,
             check=False,
+            timeout=STALLED * limit,
         )
 
     def killer(self, mutant: Mutant) -> str | None:
@@ -143,9 +147,18 @@ class Copy:
 
 
 def _ended(code: int) -> str | None:
-    if code == 0:
-        return None
-    return "time limit" if code in (-24, -9, 152, 137) else f"ends with {code}"
+    """How a process ended that was to notice something.
+
+    Raises
+    ------
+    RuntimeError
+        Somebody else ended it, so that it noticed nothing.
+    """
+    if code in (-SIGKILL, -SIGTERM, -SIGINT):
+        raise RuntimeError(f"a check was ended by signal {-code}, which is none of its own")
+    if code == -SIGXCPU:
+        return "time limit"
+    return f"ends with {code}" if code else None
 
 
 def run(

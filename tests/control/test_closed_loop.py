@@ -141,6 +141,12 @@ def test_bad_circles_are_refused(field, value):
         Circles(**fields, law="backwards")
 
 
+def test_a_circle_may_last_less_than_a_second():
+    short = Circles(*np.eye(3)[:, None, :], 0.25)
+    start, end = short.at(0.0)[0], short.at(0.25)[0]
+    np.testing.assert_allclose(start, end, atol=1e-12)
+
+
 def test_bad_runs_are_refused(crossing):
     for options in ({"dt": 0.0}, {"dt": np.nan}, {"dt": 20.0}, {"cycles": 0}):
         with pytest.raises(InputError, match="simulate"):

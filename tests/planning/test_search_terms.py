@@ -8,7 +8,13 @@ from two_spheres import GOAL, START, obstacles, placed_arm, settings
 
 from dualarm_repro.planning.adaptive_step import step_length
 from dualarm_repro.planning.bidirectional import surroundings_at
-from dualarm_repro.planning.bidirectional_settings import FlipRule, GainRule, StepRule, Threshold
+from dualarm_repro.planning.bidirectional_settings import (
+    FlipRule,
+    GainRule,
+    SearchStep,
+    StepRule,
+    Threshold,
+)
 from dualarm_repro.planning.joint_attraction import conic_force, conic_potential, set_conic_force
 from dualarm_repro.planning.repulsive_force import (
     add_torque,
@@ -121,3 +127,11 @@ def test_step_length(rho):
         assert further >= values[rule] - 1e-15
     nothing_near = np.full(3, np.inf)
     assert step_length(code(StepRule.RELATIVE), 0.05, 0.2, 2.0, weights, nothing_near, 0.4) == 0.1
+
+
+def test_a_step_keeps_between_a_fifth_and_twice_its_length_unless_told_otherwise():
+    step, weights = SearchStep(length=0.05), np.ones(1)
+    bounds = step.length, step.floor, step.cap
+    for rho, share in ((0.0, 0.2), (np.inf, 2.0)):
+        found = step_length(code(StepRule.RELATIVE), *bounds, weights, np.array([rho]), 0.4)
+        assert found == pytest.approx(0.05 * share)

@@ -43,3 +43,16 @@ def test_frames_have_the_joint_axes_and_origins():
     rotation = frames[..., :3]
     identity = np.broadcast_to(np.eye(3), rotation.shape)
     np.testing.assert_allclose(rotation @ np.swapaxes(rotation, -1, -2), identity, atol=1e-12)
+
+
+def test_no_index_leaves_an_array():
+    """Compiled code checks no bounds; the same code in Python does."""
+    rng = np.random.default_rng(2)
+    arm, base = load_arm("panda"), random_placement(rng).homogeneous[:3]
+    q, links = arm.random_configurations(2, rng), links_of(arm)
+    frames = link_frames.py_func(arm.chain, base, q)
+    np.testing.assert_allclose(frames, link_frames(arm.chain, base, q), atol=1e-14)
+    checked, compiled = np.empty((2, 2, len(links.names), 2, 3))
+    place_cores.py_func(frames, links.joint, links.local, checked)
+    place_cores(frames, links.joint, links.local, compiled)
+    np.testing.assert_allclose(checked, compiled, atol=1e-14)
