@@ -41,7 +41,7 @@ MEANING = {
         "many of the plausible choices meet it"
     ),
     Verdict.INCONSISTENT: "the document contradicts itself here; the proof is shown",
-    Verdict.NOT_REPRODUCED: "no choice within the declared ranges was found that meets print",
+    Verdict.NOT_REPRODUCED: "not found: no choice within the declared ranges meets print",
     Verdict.REGENERATED: (
         "drawn or derived anew, since the source at hand holds no original to compare with; the "
         "properties it must have are checked"

@@ -198,6 +198,7 @@ def test_document_pages(registry, monkeypatch):
     def bare_record(registry, item_id):
         item = registry.item(item_id)
         texts = {"pending": item.pending, "caption": "<b>", "verdict": "undecidable"}
+        texts |= {"robustness": None, "url": f"{registry.checkers[item_id].page}.html#{item_id}"}
         return texts | {"id": item_id, "paper": item_id.partition(".")[0], "kind": item.kind,
                         "title": item.title, "place": item.place}  # fmt: skip
 

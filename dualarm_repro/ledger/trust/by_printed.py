@@ -15,7 +15,7 @@ from ..evaluation import Evaluation, evaluate
 from ..printed import at, leaves, replaced
 from ..registry import Registry
 from ..robustness import judged
-from ..rules import Outcome, Rounds, Rule
+from ..rules import Outcome, Role, Rounds, Rule
 from ..verdict import Verdict, decide
 from .counts import Tally
 from .nonsense import agreeing, cells, formulas, moved, nonsense, other_cell, other_digit
@@ -117,15 +117,23 @@ def _wrong_digits(reprint: _Reprint, unable: list[str]) -> Iterator[tuple[str, b
         for path, text in leaves(at(before.item.printed, to)):
             if (other := _other(rule, text)) is not None:
                 value = replaced(before.item.printed, (*stem, *path), other)
-                changed = _answers(reprint, rule, value) is not now
-                yield f"{rule.label}: {text} -> {other}", changed
+                seen = _answers(reprint, rule, value) is not now or _follows(reprint, rule, value)
+                yield f"{rule.label}: {text} -> {other}", seen
 
 
 def _answers(reprint: _Reprint, rule: Rule, value: Any) -> Outcome | None:
     try:
         return rule.outcome(reprint.judged(value).evidence)
-    except InputError:
+    except (InputError, ArithmeticError, ValueError):
         return None
+
+
+def _follows(reprint: _Reprint, rule: Rule, value: Any) -> bool:
+    """Whether a scenario that is fed with what is printed is fed with the other print as well."""
+    if rule.role is not Role.ADOPTS or not reprint.reads:
+        return False
+    found = rule.found(reprint.judged(value).evidence)
+    return bool(differences(rule.found(reprint.before.evidence), found))
 
 
 def _other(rule: Rule, text: str) -> str | None:

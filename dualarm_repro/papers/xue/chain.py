@@ -15,8 +15,13 @@ from ...ledger.formula import parse
 from ...tracking import memo
 from ..wording import point
 from .printed_chain import (
+    ALPHA,
     LINKS,
+    THETA,
+    A,
+    D,
     equal,
+    general_matrix,
     joint_variable,
     link_matrix,
     printed_parameters,
@@ -97,6 +102,11 @@ def table_1(assumed: Assumed) -> Result:
     rules=[
         Is(key="links_with_alpha", value=6, label="with alpha, (1) gives all six matrices (2)-(7)"),
         Is(
+            "is_product",
+            "with alpha, (1) is Rx(alpha) Tx(a) Rz(theta) Tz(d) in symbols",
+            value=True,
+        ),
+        Is(
             key="only_with_alpha",
             value=True,
             role=Role.CONTRADICTS,
@@ -112,6 +122,7 @@ def general_transform(assumed: Assumed) -> Result:
     }
     return Result(
         obtained={
+            "is_product": equal(general_matrix(corrected=True), _product_of_screws()),
             "links_as_printed": counts[False],
             "links_with_alpha": counts[True],
             "only_with_alpha": counts[False] < counts[True] == len(LINKS),
@@ -121,6 +132,17 @@ def general_transform(assumed: Assumed) -> Result:
             f"angle alpha in place of the length a inside sine and cosine it gives {counts[True]}."
         ),
     )
+
+
+def _product_of_screws() -> sp.Matrix:
+    """Rx(alpha) Tx(a) Rz(theta) Tz(d), the definition that (1) spells out."""
+
+    def screw(turn: sp.Matrix, shift: list[sp.Expr]) -> sp.Matrix:
+        upper = turn.row_join(sp.Matrix(shift))
+        return upper.col_join(sp.Matrix([[0, 0, 0, 1]]))
+
+    about_x, about_z = sp.rot_ccw_axis1(ALPHA), sp.rot_ccw_axis3(THETA)
+    return screw(about_x, [A, 0, 0]) * screw(about_z, [0, 0, D])
 
 
 def _register_link(k: int) -> None:
@@ -172,6 +194,9 @@ for _k in LINKS:
             value=True,
             label="product of the printed matrices is the arm's T(q)",
         ),
+        Is(
+            "names", "the printed matrix names twelve entries over the last row of T(q)", value=True
+        ),
         Residual(
             key="formula",
             high=1e-12,
@@ -194,6 +219,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "product_is_dh": equal(symbolic_pose(), arm.symbolic_fk()),
+            "names": _names_entries(REGISTRY.printed("xue.eq08")["matrix"]),
             "formula": float(abs(printed_product(q[:_FORMULA]) - pinocchio[:_FORMULA]).max()),
             "pinocchio": float(abs(symbolic - pinocchio).max()),
             "kernel": float(abs(symbolic - arm.fk(q)).max()),
@@ -214,6 +240,17 @@ def end_effector_pose(assumed: Assumed) -> Result:
 def symbolic_pose() -> sp.Matrix:
     """T(q) as the product of the printed matrices (2)-(7)."""
     return product([link_matrix(k) for k in LINKS])
+
+
+def _names_entries(matrix: list[list[str]]) -> bool:
+    """Whether twelve different names stand above the last row of a homogeneous transform."""
+    names = [cell for row in matrix[:3] for cell in row]
+    last = [sp.sympify(cell) for cell in matrix[3]]
+    return (
+        len(set(names)) == len(names) == 12
+        and all(name.replace("_", "").isalpha() for name in names)
+        and last == list(symbolic_pose().row(3))
+    )
 
 
 def symbolic_poses(q: np.ndarray) -> np.ndarray:

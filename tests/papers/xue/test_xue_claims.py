@@ -34,7 +34,7 @@ def test_traps_that_hold_are_possible_though_not_in_the_arrangement_shown(regist
 
 def test_without_a_witness_held_traps_are_not_found(registry, monkeypatch):
     monkeypatch.setattr(table_2, "trapped_witnesses", lambda reading: [])
-    monkeypatch.setattr("dualarm_repro.ledger.settled.stored", lambda *_: None)
+    monkeypatch.setattr("dualarm_repro.ledger.settled.stored", lambda *_: ("none", None))
     assert settled(registry, "claim_trapped_8").verdict is Verdict.NOT_REPRODUCED
 
 
