@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
+from ..ledger.shares import Share
 from .style import BLUE, PALETTE, house_style
-
-
-class Share(NamedTuple):
-    """An observed share and its confidence interval."""
-
-    value: float
-    low: float
-    high: float
 
 
 def shares_figure(rows: Mapping[str, Mapping[str, Share]], xlabel: str) -> Any:

@@ -36,19 +36,6 @@ def rate_figure(
     return figure
 
 
-def distance_figure(curves: Mapping[str, np.ndarray], xlabel: str) -> Any:
-    """Distances [m] over the samples of a motion, drawn in millimetres; contact is shaded."""
-    with house_style():
-        figure, ax = plt.subplots(figsize=(8, 3.8))
-        for color, (name, values) in zip(PALETTE, curves.items(), strict=False):
-            ax.plot(np.linspace(0, 1, len(values)), 1e3 * values, color=color, label=name)
-        low = min(0.0, 1e3 * min(values.min() for values in curves.values()))
-        ax.axhspan(1.1 * low - 5, 0, color="0.85", zorder=0)
-        ax.set(xlabel=xlabel, ylabel="distance [mm]", xlim=(0, 1), ylim=(1.1 * low - 5, None))
-        ax.legend()
-    return figure
-
-
 def bar_figure(
     groups: Mapping[str, Mapping[str, float]], ylabel: str, mark: tuple[float, str]
 ) -> Any:
