@@ -155,10 +155,9 @@ def sensitivity(
 ) -> None:
     """Sample the assumptions of an item: how often print is met, and what flips the verdict."""
     registry = _registry()
-    registry.item(item_id)
-    if samples is None:
-        found = _record(registry, item_id)["robustness"]
-    else:
+    made = _record(registry, item_id)
+    found = made["robustness"]
+    if samples is not None:
         from .ledger.settled import robustness_of_draws
 
         with _console(stderr=True).status(f"sampling the assumptions of {item_id}"):
@@ -168,7 +167,7 @@ def sensitivity(
     else:
         from .view.terminal import robustness_line
 
-        print(f"{item_id}: {robustness_line(found)}")
+        print(f"{item_id}: {robustness_line(found, made['verdict'])}")
 
 
 @app.command()

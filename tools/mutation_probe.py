@@ -25,7 +25,7 @@ from dualarm_repro.ledger import Registry, evaluate
 from dualarm_repro.ledger.closure import closure, hash_file
 from dualarm_repro.ledger.drift import differences
 from dualarm_repro.ledger.files import to_json
-from dualarm_repro.ledger.reference import read_reference
+from dualarm_repro.ledger.reference import declared, read_reference
 from dualarm_repro.papers import load
 
 #: Cells of each study that are tried, and CPU seconds after which a check is too dear.
@@ -91,10 +91,9 @@ def _cells(registry: Registry, asked: list[list[Any]] | None) -> Iterator[Check]
         for k in chosen:
 
             def run(study=study, k=k, cells=cells, table=table) -> list[str]:
-                made = study._plain(study.cell(k, cells[k]))
-                stored = study._plain(table.iloc[k].to_dict())
-                keys = made.keys() - set(study.measured)
-                return differences({i: stored.get(i) for i in keys}, {i: made[i] for i in keys})
+                made = study.cell(k, cells[k])
+                stored = table.iloc[k].reindex(made).to_dict()
+                return study.differs(stored, made)
 
             yield "cell", name, k, lambda study=study: study.code["modules"], run
 
@@ -108,7 +107,11 @@ def _items(registry: Registry, asked: list[str] | None) -> Iterator[Check]:
             if any(name.startswith("results/") for name in evaluation.inputs):
                 return None
             obtained = json.loads(to_json(evaluation.result.obtained))
-            return differences(reference.get("obtained"), obtained)
+            return differences(
+                {"obtained": reference.get("obtained")},
+                {"obtained": obtained},
+                declared(registry, item_id),
+            )
 
         def modules(item_id=item_id) -> list[str]:
             return list(closure([registry.checker(item_id).compute]).modules)

@@ -11,7 +11,7 @@ from ..ledger.verdict import MEANING
 from .badge import badge, interval, percent
 from .firmness import firmness_svg
 from .style import BLACK, house_style
-from .wording import search_lines, short
+from .wording import search_lines, share_of, short
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 250_000
@@ -78,7 +78,8 @@ def card_html(made: dict[str, Any], root: str = "") -> str:
         parts.append(f"<p>Measured here: {escape(name)} = {escape(short(value))}</p>")
     if made["robustness"]:
         parts.append(
-            f"<p>{robustness_text(made['robustness'])}</p>{firmness_svg(made['robustness'])}"
+            f"<p>{robustness_text(made['robustness'], made['verdict'])}</p>"
+            f"{firmness_svg(made['robustness'], made['verdict'])}"
         )
     thresholds = [
         f"<b>{escape(name)}</b> = {entry['value']:g}: {escape(entry['reason'])}"
@@ -144,11 +145,11 @@ def card_figure(made: dict[str, Any]) -> Any:
     return figure
 
 
-def robustness_text(found: dict[str, Any]) -> str:
+def robustness_text(found: dict[str, Any], verdict: str) -> str:
     """Robustness of a verdict in one sentence or two."""
     met, low, high = found["meets_print"]["share"], *found["meets_print"]["interval"]
     text = (
-        f"Print is met in {percent(met)} of {found['samples']} draws of the assumptions "
+        f"{share_of(verdict).capitalize()} in {percent(met)} of {found['samples']} draws of the assumptions "
         f"(95 % interval {interval(low, high)}). "
     )
     flip = found["flip"]

@@ -6,21 +6,24 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
+from .wording import share_of
+
 _WIDTH, _LABEL, _ROW = 460, 170, 20
 _BAR = _WIDTH - _LABEL - 60
 #: Assumptions shown, the most influential first.
 _MOST = 5
 
 
-def firmness_svg(robustness: Mapping[str, Any]) -> str:
+def firmness_svg(robustness: Mapping[str, Any], verdict: str) -> str:
     """Inline SVG that follows the colours of the page: one row for the share of draws that meet
-    print, then one for each assumption with an influence beyond chance."""
+    print, or have the properties of what is ``regenerated``, then one for each assumption with an
+    influence beyond chance."""
     met = robustness["meets_print"]
-    rows = [_row(0, "meets print", met["share"], met["interval"], "#0072B2")]
+    rows = [_row(0, share_of(verdict), met["share"], met["interval"], "#0072B2")]
     shown = list(robustness["influence"].items())[:_MOST]
     rows += [_row(k, name, index, None, "#E69F00") for k, (name, index) in enumerate(shown, 1)]
     height = _ROW * len(rows) + 4
-    text = f"Print is met in {100 * met['share']:.0f} % of {robustness['samples']} draws"
+    text = f"{share_of(verdict).capitalize()} in {100 * met['share']:.0f} % of {robustness['samples']} draws"
     if shown:
         named = ", ".join(f"{name} {index:.2f}" for name, index in shown)
         text += f"; first-order influence: {named}"

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from .wording import search_lines
+from .wording import search_lines, share_of
 
 
 def describe(made: dict[str, Any]) -> Iterator[str]:
@@ -28,7 +28,7 @@ def describe(made: dict[str, Any]) -> Iterator[str]:
     for name, value in (made["measured"] or {}).items():
         yield f"  measured: {name} = {value}"
     yield from _grounds(made)
-    yield f"  robustness: {robustness_line(made['robustness'], made['draws'])}"
+    yield f"  robustness: {robustness_line(made['robustness'], made['verdict'], made['draws'])}"
     if code := made["code"]:
         yield f"  code: {code['file']}:{code['line']} {code['function']}; page {made['page']}"
 
@@ -59,13 +59,15 @@ def verdict_text(made: dict[str, Any]) -> str:
     return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
 
 
-def robustness_line(found: dict[str, Any] | None, draws: str = "none") -> str:
-    """Share of the draws that meet print, what it hangs on and what flips it."""
+def robustness_line(
+    found: dict[str, Any] | None, verdict: str, draws: str = "none"
+) -> str:
+    """Share of the draws that meet print, or have the properties of what is ``regenerated``, what it hangs on and what flips it."""
     if found is None:
         return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
     low, high = found["meets_print"]["interval"]
     text = (
-        f"print is met in {found['meets_print']['share']:.1%} of {found['samples']} draws "
+        f"{share_of(verdict)} in {found['meets_print']['share']:.1%} of {found['samples']} draws "
         f"({low:.1%}-{high:.1%})"
     )
     if found["influence"]:

@@ -21,6 +21,11 @@ def short(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
+def share_of(verdict: str) -> str:
+    """What the share of the draws counts: what has no original meets no print."""
+    return "the properties hold" if verdict == "regenerated" else "print is met"
+
+
 def search_lines(made: dict[str, Any]) -> list[str]:
     """How a witness was sought where none was found, and which is still to be sought."""
     lines, found = [], made["search"]

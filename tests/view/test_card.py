@@ -11,6 +11,7 @@ from dualarm_repro.view.card import card_html, robustness_text
 from dualarm_repro.view.firmness import firmness_svg
 from dualarm_repro.view.wording import search_lines
 
+POSSIBLE = "reproduced-under-assumption"
 ROBUST = {
     "holds": 0.05,
     "samples": 32,
@@ -44,22 +45,23 @@ def test_percent_says_all_or_nothing_only_where_it_is(share, text):
 
 
 def test_picture_has_a_bar_for_each_number():
-    svg = BeautifulSoup(firmness_svg(ROBUST), "html.parser")
+    svg = BeautifulSoup(firmness_svg(ROBUST, POSSIBLE), "html.parser")
     bars = {t.get_text(): float(r["width"]) for t, r in zip(
         svg.find_all("text", attrs={"text-anchor": "end"}),
         [r for r in svg.find_all("rect") if r.get("fill")], strict=True)}  # fmt: skip
-    assert list(bars) == ["meets print", "width", "shape<"]
-    assert bars["width"] / bars["meets print"] == pytest.approx(0.61 / 0.05, rel=0.02)
+    assert list(bars) == ["print is met", "width", "shape<"]
+    assert bars["width"] / bars["print is met"] == pytest.approx(0.61 / 0.05, rel=0.02)
     assert "5 % of 32 draws" in svg.title.get_text()
     assert svg.find("path", class_="whisker")
-    assert len(BeautifulSoup(firmness_svg({**ROBUST, "influence": {}}), "html.parser")("rect")) == 2
+    assert len(BeautifulSoup(firmness_svg({**ROBUST, "influence": {}}, POSSIBLE), "html.parser")("rect")) == 2
 
 
 def test_sentence_on_robustness():
-    text = robustness_text(ROBUST)
+    text = robustness_text(ROBUST, POSSIBLE)
     assert "Print is met in 5 % of 32 draws" in text
     assert "width from 1 to 1.5, giving not-reproduced" in text
-    assert "No single change" in robustness_text({**ROBUST, "flip": None})
+    assert "The properties hold in 5 %" in robustness_text(ROBUST, "regenerated")
+    assert "No single change" in robustness_text({**ROBUST, "flip": None}, POSSIBLE)
 
 
 def test_search_says_what_was_done_and_what_is_left():

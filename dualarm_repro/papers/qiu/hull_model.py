@@ -164,8 +164,7 @@ def _operations(arm: PlacedArm, track: HullTrack, q: np.ndarray) -> tuple[float,
     ends = _cores(arm, q)
     hulls, capsules = [], []
     for k in range(_COUNTED):
-        faces = np.unique(track.planes[k], axis=0, return_index=True)[1]
-        planes, triangles = track.planes[k][faces], track.triangles[k][faces]
+        planes, triangles = _faces(track, k)
         direction = rng.normal(size=3)
         point = triangles.mean(axis=(0, 1)) + 0.5 * direction / np.linalg.norm(direction)
         hulls.append(operations(point_hull, tuple(point), planes, triangles))
@@ -176,6 +175,13 @@ def _operations(arm: PlacedArm, track: HullTrack, q: np.ndarray) -> tuple[float,
             )
         )
     return float(np.mean(hulls)), float(np.mean(capsules))
+
+
+def _faces(track: HullTrack, k: int) -> tuple[np.ndarray, np.ndarray]:
+    """Planes and triangles of one hull, without the repeated last face that fills its row."""
+    corners = track.triangles[k].reshape(-1, 9)
+    faces = np.sort(np.unique(corners, axis=0, return_index=True)[1])
+    return track.planes[k][faces], track.triangles[k][faces]
 
 
 def _cores(arm: PlacedArm, q: np.ndarray) -> np.ndarray:
@@ -190,6 +196,7 @@ def _cores(arm: PlacedArm, q: np.ndarray) -> np.ndarray:
 def _times(arm: PlacedArm, track: Any, q: np.ndarray) -> dict[str, float]:
     """Microseconds of one query of either model and of building one hull, from plain Python."""
     point, links = (0.2, 0.1, 0.9), links_of(arm.arm)
+    planes, triangles = _faces(track, 0)
     axes = [tuple(row[1] - row[0]) for row in links.local]
 
     def clock(function: Any, count: int) -> float:
@@ -200,9 +207,7 @@ def _times(arm: PlacedArm, track: Any, q: np.ndarray) -> dict[str, float]:
         return 1e6 * (perf_counter() - began) / count
 
     return {
-        "hull_query_us": clock(
-            lambda: point_hull(point, track.planes[0], track.triangles[0]), _QUERIES
-        ),
+        "hull_query_us": clock(lambda: point_hull(point, planes, triangles), _QUERIES),
         "capsules_query_us": clock(
             lambda: [
                 point_capsule(point, tuple(row[0]), axis, r)
@@ -210,5 +215,5 @@ def _times(arm: PlacedArm, track: Any, q: np.ndarray) -> dict[str, float]:
             ],
             _QUERIES // 10,
         ),
-        "hull_build_us": clock(lambda: hull_track(track.triangles[0].reshape(1, -1, 3)), 20),
+        "hull_build_us": clock(lambda: hull_track(triangles.reshape(1, -1, 3)), 20),
     }
