@@ -20,11 +20,11 @@ from dualarm_repro.papers.qiu.readings import (
     slave_posture,
 )
 from dualarm_repro.papers.qiu.scenario import START, placed, repelling, truth_scene
-from dualarm_repro.planning.bidirectional import plan_bidirectional
-from dualarm_repro.planning.bidirectional_compiled import plan_bidirectional_compiled
-from dualarm_repro.planning.rrt_connect import plan_rrt_connect
-from dualarm_repro.planning.splice import smoothed
-from dualarm_repro.planning.time_map import hull_tracks
+from dualarm_repro.planning.search.bidirectional import plan_bidirectional
+from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.search.rrt_connect import plan_rrt_connect
+from dualarm_repro.planning.search.splice import smoothed
+from dualarm_repro.planning.search.time_map import hull_tracks
 
 TASK, REBUILT = "search of one master", "the same with the reconstructed gains"
 BOTH = "master, its hull, and the slave around it"

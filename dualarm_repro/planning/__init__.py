@@ -1,17 +1,22 @@
 """Planning: artificial potential fields, master and slave, and what their plans are worth."""
 
-from .apf import plan_apf
-from .batch import Batch, perturbed, plan_batch
-from .certificate import Certificate, certify
-from .compiled import plan_apf_compiled
-from .control_points import ControlPoints, control_points
-from .link_clearance import LinkClearance, certified_clearance, link_clearance, require_links_clear
+from .checks.link_clearance import (
+    LinkClearance,
+    certified_clearance,
+    link_clearance,
+    require_links_clear,
+)
+from .descent.apf import plan_apf
+from .descent.batch import Batch, perturbed, plan_batch
+from .descent.certificate import Certificate, certify
+from .descent.compiled import plan_apf_compiled
+from .descent.termination import StopReason
+from .field.control_points import ControlPoints, control_points
+from .field.obstacles import Obstacles, obstacles_of
+from .field.potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
 from .master_slave import CoordinatedPlan, Task, at_tool_speed, plan_master_slave
 from .methods import METHODS, Method, method, plan_file, settings_schema
-from .obstacles import Obstacles, obstacles_of
 from .plan import Plan
-from .postures import posture
-from .potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
 from .settings import (
     APFSettings,
     Attraction,
@@ -25,8 +30,8 @@ from .settings import (
     UpdateRule,
     VirtualPoint,
 )
-from .task_file import TaskSet, load_tasks
-from .termination import StopReason
+from .tasks.postures import posture
+from .tasks.task_file import TaskSet, load_tasks
 
 __all__ = [
     "METHODS",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arms import Arm
-from .bidirectional_arms import TwoArmSettings
+from .search.bidirectional_arms import TwoArmSettings
 from .settings import APFSettings, Attraction, Repulsion, Termination, Trap, Update
 
 

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, UnknownNameError
 from ..scene import JointPath, PlacedArm, Scene
-from .compiled import plan_apf_compiled
-from .control_points import ControlPoints, control_points, end_effector, ends_of
-from .link_clearance import LinkClearance, link_clearance
-from .obstacles import Obstacles, obstacles_of
+from .checks.link_clearance import LinkClearance, link_clearance
+from .descent.compiled import plan_apf_compiled
+from .field.control_points import ControlPoints, control_points, end_effector, ends_of
+from .field.obstacles import Obstacles, obstacles_of
 from .plan import Plan
 from .settings import APFSettings, PointSet
 

@@ -10,9 +10,9 @@ import pandas as pd
 
 from ..scene.bodies import PlacedArm
 from ..scene.moving import JointPath
-from .certificate import Certificate
-from .control_points import end_effector
-from .termination import StopReason
+from .descent.certificate import Certificate
+from .descent.termination import StopReason
+from .field.control_points import end_effector
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ def schemas() -> dict[str, dict[str, Any]]:
     from ..control.scenario import json_schema as scenario
     from ..ledger.record_schema import ledger_schema, published, record_schema
     from ..ledger.schema import json_schema as paper
-    from ..planning.task_file import json_schema as task
+    from ..planning.tasks.task_file import json_schema as task
     from ..scene.scene_file import json_schema as scene
 
     made = {

@@ -33,8 +33,8 @@ from dualarm_repro.planning import (
     plan_apf,
     plan_apf_compiled,
 )
-from dualarm_repro.planning.control_points import end_effector
-from dualarm_repro.planning.problem import problem
+from dualarm_repro.planning.descent.problem import problem
+from dualarm_repro.planning.field.control_points import end_effector
 from dualarm_repro.scene import MovingShape, PlacedArm, PosePath, Scene, Sphere
 
 QUICK = Trap(rule="block_means", steps=20, threshold=1e-3)

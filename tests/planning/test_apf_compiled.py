@@ -23,18 +23,12 @@ from window_scene import (
 )
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.planning import (
-    Trap,
-    control_points,
-    obstacles_of,
-    plan_apf,
-    plan_apf_compiled,
-)
-from dualarm_repro.planning.compiled import rules_of
-from dualarm_repro.planning.field_kernels import evaluate, field_of, gradient, workspace
-from dualarm_repro.planning.problem import problem
-from dualarm_repro.planning.update_kernels import move
-from dualarm_repro.planning.updates import next_configuration
+from dualarm_repro.planning import Trap, control_points, obstacles_of, plan_apf, plan_apf_compiled
+from dualarm_repro.planning.descent.compiled import rules_of
+from dualarm_repro.planning.descent.problem import problem
+from dualarm_repro.planning.descent.update_kernels import move
+from dualarm_repro.planning.descent.updates import next_configuration
+from dualarm_repro.planning.field.field_kernels import evaluate, field_of, gradient, workspace
 from dualarm_repro.scene import (
     Capsule,
     HalfSpace,

@@ -6,7 +6,7 @@ from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning import certify, perturbed, plan_apf_compiled, plan_batch
-from dualarm_repro.planning.problem import problem
+from dualarm_repro.planning.descent.problem import problem
 from dualarm_repro.scene import Sphere
 
 STARTS = perturbed(START, 0.1, 6, np.random.default_rng(0))

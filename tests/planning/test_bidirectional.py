@@ -6,13 +6,13 @@ import pytest
 from two_spheres import GOAL, ONE_SIDED, START, obstacles, placed_arm, settings
 
 from dualarm_repro.errors import ConfigurationError, InputError
-from dualarm_repro.planning.bidirectional import plan_bidirectional
-from dualarm_repro.planning.bidirectional_compiled import plan_bidirectional_compiled
-from dualarm_repro.planning.bidirectional_settings import GainRule, StepRule, Threshold
-from dualarm_repro.planning.failure import Failure, classify
-from dualarm_repro.planning.hull_obstacle import JointCircles, circles_on, hull_track
-from dualarm_repro.planning.obstacles import obstacles_of
-from dualarm_repro.planning.termination import StopReason
+from dualarm_repro.planning.descent.termination import StopReason
+from dualarm_repro.planning.field.hull_obstacle import JointCircles, circles_on, hull_track
+from dualarm_repro.planning.field.obstacles import obstacles_of
+from dualarm_repro.planning.search.bidirectional import plan_bidirectional
+from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.search.bidirectional_settings import GainRule, StepRule, Threshold
+from dualarm_repro.planning.search.failure import Failure, classify
 from dualarm_repro.scene import PlacedArm, Scene, Sphere
 
 VARIANTS = {

@@ -7,8 +7,8 @@ import pytest
 from two_spheres import GOAL, START, placed_arm, shapes
 
 from dualarm_repro.errors import UnsupportedArmError
-from dualarm_repro.planning.contact_check import contact_check
-from dualarm_repro.planning.rrt_connect import plan_rrt_connect
+from dualarm_repro.planning.checks.contact_check import contact_check
+from dualarm_repro.planning.search.rrt_connect import plan_rrt_connect
 from dualarm_repro.scene import JointPath, Scene, Sphere, distances
 
 

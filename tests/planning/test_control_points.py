@@ -7,7 +7,7 @@ from window_scene import MASTER, SLAVE
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import InputError
 from dualarm_repro.planning import control_points
-from dualarm_repro.planning.control_points import end_effector, ends_of
+from dualarm_repro.planning.field.control_points import end_effector, ends_of
 from dualarm_repro.scene import PlacedArm
 from dualarm_repro.scene.posing import links_of
 

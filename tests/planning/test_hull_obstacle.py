@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from two_spheres import GOAL, START, placed_arm
 
-from dualarm_repro.planning.hull_obstacle import (
+from dualarm_repro.planning.field.hull_obstacle import (
     JointCircles,
     circles_on,
     hull_distance,

@@ -23,7 +23,7 @@ from dualarm_repro.planning import (
     plan_apf_compiled,
     plan_master_slave,
 )
-from dualarm_repro.planning.control_points import end_effector
+from dualarm_repro.planning.field.control_points import end_effector
 
 TASKS = {"master": Task(MASTER_START, MASTER_GOAL, IMPROVED), "slave": Task(START, GOAL, IMPROVED)}
 BOTH = plan_master_slave(scene(), TASKS)

@@ -7,7 +7,7 @@ from window_scene import GOAL, MASTER, SLAVE, START, around, scene, window
 
 from dualarm_repro.errors import InputError, UnknownNameError
 from dualarm_repro.planning import control_points, obstacles_of
-from dualarm_repro.planning.control_points import ends_of
+from dualarm_repro.planning.field.control_points import ends_of
 from dualarm_repro.scene import (
     Box,
     ConvexHull,

@@ -5,7 +5,7 @@ import pytest
 from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 from dualarm_repro.planning import plan_apf_compiled
-from dualarm_repro.planning.control_points import end_effector
+from dualarm_repro.planning.field.control_points import end_effector
 
 PLAN = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED)
 

@@ -6,7 +6,7 @@ from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around, virtual
 
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning import plan_apf, plan_apf_compiled, plan_batch
-from dualarm_repro.planning.problem import problem
+from dualarm_repro.planning.descent.problem import problem
 from dualarm_repro.scene import Sphere
 
 PLANNERS = [plan_apf, plan_apf_compiled, plan_batch]

@@ -10,7 +10,7 @@ from window_scene import MASTER, SLAVE
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import InputError
 from dualarm_repro.planning import posture
-from dualarm_repro.planning.control_points import end_effector
+from dualarm_repro.planning.field.control_points import end_effector
 from dualarm_repro.scene import PlacedArm
 
 SMALL = PlacedArm(

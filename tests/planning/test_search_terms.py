@@ -6,25 +6,29 @@ from hypothesis import given
 from hypothesis import strategies as st
 from two_spheres import GOAL, START, obstacles, placed_arm, settings
 
-from dualarm_repro.planning.adaptive_step import step_length
-from dualarm_repro.planning.bidirectional import surroundings_at
-from dualarm_repro.planning.bidirectional_settings import (
+from dualarm_repro.planning.descent.adaptive_step import step_length
+from dualarm_repro.planning.field.joint_attraction import (
+    conic_force,
+    conic_potential,
+    set_conic_force,
+)
+from dualarm_repro.planning.field.repulsive_force import (
+    add_torque,
+    inverse_distance_force,
+    inverse_distance_potential,
+    joint_torques,
+)
+from dualarm_repro.planning.field.variable_gain import gain_factor, is_flip
+from dualarm_repro.planning.search.bidirectional import surroundings_at
+from dualarm_repro.planning.search.bidirectional_settings import (
     FlipRule,
     GainRule,
     SearchStep,
     StepRule,
     Threshold,
 )
-from dualarm_repro.planning.joint_attraction import conic_force, conic_potential, set_conic_force
-from dualarm_repro.planning.repulsive_force import (
-    add_torque,
-    inverse_distance_force,
-    inverse_distance_potential,
-    joint_torques,
-)
-from dualarm_repro.planning.search_problem import search_problem
+from dualarm_repro.planning.search.search_problem import search_problem
 from dualarm_repro.planning.settings import code
-from dualarm_repro.planning.variable_gain import gain_factor, is_flip
 
 VECTOR = st.lists(st.floats(-2, 2), min_size=6, max_size=6).map(np.array)
 

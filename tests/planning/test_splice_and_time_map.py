@@ -5,9 +5,9 @@ import pytest
 from two_spheres import GOAL, START, obstacles, placed_arm, settings
 
 from dualarm_repro.errors import InputError
-from dualarm_repro.planning.bidirectional_compiled import plan_bidirectional_compiled
-from dualarm_repro.planning.splice import roughness, smoothed, smoothed_directly
-from dualarm_repro.planning.time_map import along_path, replay, shares, time_map
+from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.search.splice import roughness, smoothed, smoothed_directly
+from dualarm_repro.planning.search.time_map import along_path, replay, shares, time_map
 
 
 @pytest.fixture(scope="module")

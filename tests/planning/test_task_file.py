@@ -14,9 +14,9 @@ from dualarm_repro.planning import (
     plan_file,
     settings_schema,
 )
-from dualarm_repro.planning.bidirectional_arms import TwoArmSettings
-from dualarm_repro.planning.control_points import end_effector
 from dualarm_repro.planning.defaults import default_settings
+from dualarm_repro.planning.field.control_points import end_effector
+from dualarm_repro.planning.search.bidirectional_arms import TwoArmSettings
 from dualarm_repro.scene import load_scene
 
 SCENE = """\

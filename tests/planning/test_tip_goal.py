@@ -5,8 +5,8 @@ import pytest
 from two_spheres import GOAL, START, placed_arm
 
 from dualarm_repro.errors import ConfigurationError, InputError
-from dualarm_repro.planning.control_points import end_effector
-from dualarm_repro.planning.tip_goal import nearest_posture, tip_posture
+from dualarm_repro.planning.field.control_points import end_effector
+from dualarm_repro.planning.tasks.tip_goal import nearest_posture, tip_posture
 
 BEYOND = [-0.1, -0.2, 0.75]
 

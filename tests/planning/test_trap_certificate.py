@@ -7,8 +7,8 @@ import pytest
 from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around
 
 from dualarm_repro.planning import Attraction, certify, obstacles_of
-from dualarm_repro.planning.certificate import hessian
-from dualarm_repro.planning.problem import problem
+from dualarm_repro.planning.descent.certificate import hessian
+from dualarm_repro.planning.descent.problem import problem
 from dualarm_repro.scene import Scene, Sphere
 
 NOTHING = obstacles_of(Scene([SLAVE]))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from window_scene import FIXED, SEARCH
 
 from dualarm_repro.planning import JointAttraction, Sum, Update
-from dualarm_repro.planning.updates import next_configuration
+from dualarm_repro.planning.descent.updates import next_configuration
 
 FREE = np.full(6, -np.inf), np.full(6, np.inf)
 GRADIENT = Update(rule="gradient", gain=0.05, max_step=0.02)

@@ -3,8 +3,7 @@
 import pytest
 
 from dualarm_repro.planning import Switching
-from dualarm_repro.planning.settings import code
-from dualarm_repro.planning.virtual_point import (
+from dualarm_repro.planning.descent.virtual_point import (
     NO_POINT,
     SwitchRules,
     acting,
@@ -12,6 +11,7 @@ from dualarm_repro.planning.virtual_point import (
     may_finish,
     switched,
 )
+from dualarm_repro.planning.settings import code
 
 FAR, NEAR = 1.0, 0.05
 STUCK = [Switching.ON_WHEN_STUCK, Switching.REPLACES_GOAL]

@@ -4,8 +4,8 @@ import numpy as np
 import pinocchio as pin
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.planning.bidirectional_settings import BidirectionalSettings
-from dualarm_repro.planning.obstacles import obstacles_of
+from dualarm_repro.planning.field.obstacles import obstacles_of
+from dualarm_repro.planning.search.bidirectional_settings import BidirectionalSettings
 from dualarm_repro.scene import Box, HalfSpace, PlacedArm, Scene, Sphere
 
 START = np.zeros(6)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ...ledger.shares import Share
-from ...planning.bidirectional_compiled import plan_bidirectional_compiled
-from ...planning.contact_check import contact_check
-from ...planning.failure import classify
+from ...planning.checks.contact_check import contact_check
+from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.search.failure import classify
 from .goals import GoalSet
 from .readings import Variant, master_arm, settings
 from .scenario import START, repelling, truth_scene

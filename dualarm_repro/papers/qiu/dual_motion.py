@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
-from ...planning.control_points import end_effector
-from ...planning.hull_obstacle import circles_on
+from ...planning.field.control_points import end_effector
+from ...planning.field.hull_obstacle import circles_on
 from ...scene import ConvexHull, densify, distances
 from ...view.scene3d import Scene3D
 from ...view.search_curves import coordinate_figure, joint_figure

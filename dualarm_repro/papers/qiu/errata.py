@@ -7,12 +7,12 @@ from scipy.spatial.transform import Rotation
 
 from ...ledger import REGISTRY, Proof
 from ...ledger.printed import read_number
-from ...planning.bidirectional import repulsive_torque, surroundings_at
-from ...planning.control_points import end_effector
-from ...planning.failure import Failure, classify
-from ...planning.repulsive_force import inverse_distance_force
-from ...planning.search_problem import search_problem
-from ...planning.tip_goal import nearest_posture
+from ...planning.field.control_points import end_effector
+from ...planning.field.repulsive_force import inverse_distance_force
+from ...planning.search.bidirectional import repulsive_torque, surroundings_at
+from ...planning.search.failure import Failure, classify
+from ...planning.search.search_problem import search_problem
+from ...planning.tasks.tip_goal import nearest_posture
 from .execution import executed
 from .hull_model import protrusions
 from .printed_points import meeting, trap

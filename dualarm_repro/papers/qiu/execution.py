@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...planning.contact_check import ContactCheck, contact_check
-from ...planning.time_map import along_path, replay, time_map
+from ...planning.checks.contact_check import ContactCheck, contact_check
+from ...planning.search.time_map import along_path, replay, time_map
 from ...scene import Scene
 from ...tracking import memo
 from .readings import DualPlan, master_arm

@@ -12,14 +12,11 @@ import pandas as pd
 from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
 from ...ledger.formula import parse
 from ...ledger.printed import EXACT
-from ...planning.bidirectional import repulsive_torque, surroundings_at
-from ...planning.bidirectional_settings import Threshold
-from ...planning.joint_attraction import conic_force, conic_potential
-from ...planning.repulsive_force import (
-    inverse_distance_force,
-    inverse_distance_potential,
-)
-from ...planning.search_problem import SearchProblem, search_problem
+from ...planning.field.joint_attraction import conic_force, conic_potential
+from ...planning.field.repulsive_force import inverse_distance_force, inverse_distance_potential
+from ...planning.search.bidirectional import repulsive_torque, surroundings_at
+from ...planning.search.bidirectional_settings import Threshold
+from ...planning.search.search_problem import SearchProblem, search_problem
 from ...view.force_field import force_field_figure
 from ...view.tip_paths import TipPanel, tip_path_figure
 from ..wording import point

@@ -9,10 +9,10 @@ import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from ...ledger.formula import parse
-from ...planning.adaptive_step import step_length
-from ...planning.bidirectional_settings import GainRule, StepRule
+from ...planning.descent.adaptive_step import step_length
+from ...planning.field.variable_gain import gain_factor
+from ...planning.search.bidirectional_settings import GainRule, StepRule
 from ...planning.settings import code
-from ...planning.variable_gain import gain_factor
 from .printed_formula import value_of
 from .readings import GAIN, TRADITIONAL, variable_gain_plan
 from .scenario import ALPHA0, INFLUENCE

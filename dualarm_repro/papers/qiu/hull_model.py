@@ -12,7 +12,7 @@ import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Residual, Result
 from ...ledger.printed import read_number
-from ...planning.hull_obstacle import HullTrack, circles_on, hull_track, point_hull
+from ...planning.field.hull_obstacle import HullTrack, circles_on, hull_track, point_hull
 from ...scene import ConvexHull, PlacedArm
 from ...scene.points import point_capsule
 from ...scene.posing import link_frames, links_of, place_cores

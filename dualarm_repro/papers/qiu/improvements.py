@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Study
-from ...planning.bidirectional_compiled import plan_bidirectional_compiled
-from ...planning.obstacles import obstacles_of
+from ...planning.field.obstacles import obstacles_of
+from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .oscillation import chatter
 from .random_tasks import random_task
 from .readings import IMPROVED, IMPROVED_VARIANT, Variant, settings

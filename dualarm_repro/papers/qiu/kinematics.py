@@ -14,7 +14,7 @@ from ...arms import load_arm
 from ...arms.dh import joint_symbols
 from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result, Rounds
 from ...ledger.formula import parse
-from ...planning.control_points import end_effector as tip_of
+from ...planning.field.control_points import end_effector as tip_of
 from ...view.arm_drawings import dimension_drawing, frames_figure, stick_figure
 from ...view.scene3d import Scene3D
 from ...view.style import MASTER, SLAVE

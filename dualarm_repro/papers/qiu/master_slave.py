@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
-from ...planning.bidirectional_compiled import plan_bidirectional_compiled
-from ...planning.splice import smoothed
-from ...planning.time_map import hull_tracks, replay, shares, time_map
+from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.search.splice import smoothed
+from ...planning.search.time_map import hull_tracks, replay, shares, time_map
 from ...view.diagrams import flow_chart
 from ..wording import point
 from .execution import both_arms, executed

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
-from ...planning.failure import classify
-from ...planning.search_plan import SearchPlan
+from ...planning.search.failure import classify
+from ...planning.search.search_plan import SearchPlan
 from ...view.scene3d import Scene3D
 from ...view.search_curves import coordinate_figure
 from ...view.style import BLACK, GREEN, MASTER, ORANGE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...planning.contact_check import contact_check
+from ...planning.checks.contact_check import contact_check
 from ...scene import Scene, Sphere, distances
 from .scenario import BASES, placed, shoulder
 

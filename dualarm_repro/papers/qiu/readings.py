@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ...planning.bidirectional import repulsive_torque, surroundings_at
-from ...planning.bidirectional_compiled import plan_bidirectional_compiled
-from ...planning.bidirectional_settings import BidirectionalSettings
-from ...planning.hull_obstacle import JointCircles
-from ...planning.search_plan import SearchPlan
-from ...planning.search_problem import search_problem
-from ...planning.splice import smoothed
-from ...planning.time_map import hull_tracks
-from ...planning.tip_goal import nearest_posture
+from ...planning.field.hull_obstacle import JointCircles
+from ...planning.search.bidirectional import repulsive_torque, surroundings_at
+from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.search.bidirectional_settings import BidirectionalSettings
+from ...planning.search.search_plan import SearchPlan
+from ...planning.search.search_problem import search_problem
+from ...planning.search.splice import smoothed
+from ...planning.search.time_map import hull_tracks
+from ...planning.tasks.tip_goal import nearest_posture
 from ...scene import PlacedArm
 from ...tracking import memo
 from .printed_points import trap

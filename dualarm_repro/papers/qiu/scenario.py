@@ -12,7 +12,7 @@ import pinocchio as pin
 from ...arms import Arm, load_arm
 from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
-from ...planning.obstacles import Obstacles, obstacles_of
+from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...scene import HalfSpace, PlacedArm, Scene, Sphere
 from ...tracking import memo
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Residual, Result
-from ...planning.splice import roughness, smoothed, smoothed_directly
+from ...planning.search.splice import roughness, smoothed, smoothed_directly
 from .improvements import IMPROVEMENTS, STEP_RULES, nearest
 from .printed_points import meeting, slave_meeting
 from .readings import improved_plan, traditional_plan

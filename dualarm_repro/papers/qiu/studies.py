@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Study
-from ...planning.bidirectional_compiled import plan_bidirectional_compiled
-from ...planning.contact_check import contact_check
-from ...planning.failure import classify
-from ...planning.obstacles import Obstacles, obstacles_of
-from ...planning.rrt_connect import plan_rrt_connect
-from ...planning.search_plan import SearchPlan
-from ...planning.time_map import hull_tracks, replay, time_map
+from ...planning.checks.contact_check import contact_check
+from ...planning.field.obstacles import Obstacles, obstacles_of
+from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from ...planning.search.failure import classify
+from ...planning.search.rrt_connect import plan_rrt_connect
+from ...planning.search.search_plan import SearchPlan
+from ...planning.search.time_map import hull_tracks, replay, time_map
 from ...scene import PlacedArm, Scene, distances
 from ...tracking import memo
 from .campaign import campaign

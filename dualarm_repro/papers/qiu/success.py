@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result, Rounds
-from ...planning.failure import Failure
-from ...planning.search_plan import SearchPlan
-from ...planning.splice import smoothed
+from ...planning.search.failure import Failure
+from ...planning.search.search_plan import SearchPlan
+from ...planning.search.splice import smoothed
 from ...view.success_curves import rate_figure
 from .campaign import JUDGED_BY, rate_of
 from .goals import draw_goals

@@ -11,8 +11,8 @@ import pinocchio as pin
 from ...errors import InputError
 from ...ledger import REGISTRY, Adopts, Assumed, Bounded, Result, Role
 from ...ledger.printed import read_number
-from ...planning.control_points import end_effector
-from ...planning.tip_goal import tip_posture
+from ...planning.field.control_points import end_effector
+from ...planning.tasks.tip_goal import tip_posture
 from ..wording import point
 from .goals import draw_goals
 from .kinematics import offset_chain

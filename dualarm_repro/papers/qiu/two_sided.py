@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
-from ...planning.contact_check import ContactCheck, contact_check
-from ...planning.search_plan import SearchPlan
-from ...planning.splice import roughness
+from ...planning.checks.contact_check import ContactCheck, contact_check
+from ...planning.search.search_plan import SearchPlan
+from ...planning.search.splice import roughness
 from ...view.scene3d import Scene3D
 from ...view.search_curves import coordinate_figure, joint_figure, splice_figure
 from ...view.style import GREEN, MASTER, ORANGE, PURPLE

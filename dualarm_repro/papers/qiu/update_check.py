@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...planning.bidirectional import repulsive_torque, surroundings_at
-from ...planning.joint_attraction import conic_force
-from ...planning.search_plan import SearchPlan
+from ...planning.field.joint_attraction import conic_force
+from ...planning.search.bidirectional import repulsive_torque, surroundings_at
+from ...planning.search.search_plan import SearchPlan
 
 #: Gains of the control points (K,) from the factors (K,) and the initial gain.
 Gains = Callable[[np.ndarray, float], np.ndarray]

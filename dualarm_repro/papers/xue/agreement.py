@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Residual, Result
-from ...planning.potentials import Potential
+from ...planning.field.potentials import Potential
 from .sample_problem import worst_gradient
 
 checks = partial(REGISTRY.checks, page="xue/potentials")

@@ -17,7 +17,7 @@ import pandas as pd
 from ...errors import LedgerError
 from ...ledger import REGISTRY, Study
 from ...ledger.streams import stream
-from ...planning.problem import problem
+from ...planning.descent.problem import problem
 from ...tracking import memo
 from .chosen import KEPT, Chosen, nominal
 from .delicate import DESCENTS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...planning.control_points import control_points, end_effector, ends_of
+from ...planning.field.control_points import control_points, end_effector, ends_of
 from ...planning.plan import Plan
 from ...scene import JointPath, PlacedArm, facing
 from .layout import Layout

@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Is, NoOriginal, Result
+from ...planning.descent.termination import StopReason
 from ...planning.plan import Plan
-from ...planning.termination import StopReason
 from ...tracking import memo
 from ...view.transitions import transitions_figure
 from .ablation import NAMED

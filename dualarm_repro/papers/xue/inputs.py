@@ -19,7 +19,7 @@ from ...ledger import (
     Role,
     Rounds,
 )
-from ...planning.control_points import end_effector
+from ...planning.field.control_points import end_effector
 from ...scene import JointPath, facing
 from ...view.scene3d import Scene3D
 from ...view.tracks import tracks_figure

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
 from ...ledger.formula import parse
-from ...planning.apf import plan_apf
+from ...planning.descent.apf import plan_apf
 from ...scene import PlacedArm
 from ...tracking import memo
 from .chosen import nominal

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
-from ...planning.problem import problem
+from ...planning.descent.problem import problem
 from ...view.shares import curve_figure
 from .chosen import nominal
 from .facts import flanges_apart

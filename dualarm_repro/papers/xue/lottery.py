@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Study
-from ...planning.problem import problem
+from ...planning.descent.problem import problem
 from .chosen import KEPT, Chosen, assumption, nominal
 from .delicate import DESCENTS
 from .facts import flange_to_window, flanges_apart, flanges_apart_moving, points_to_window

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...ledger import REGISTRY, Proof, evaluate
-from ...planning.control_points import end_effector
-from ...planning.termination import StopReason
+from ...planning.descent.termination import StopReason
+from ...planning.field.control_points import end_effector
 from .chosen import nominal
 from .layout import placed_master
 from .link_truth import RADII

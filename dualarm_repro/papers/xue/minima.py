@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from ...arms import load_arm
 from ...ledger import REGISTRY, Study
-from ...planning.potentials import JointAttraction, PositionAttraction, Sum
+from ...planning.field.potentials import JointAttraction, PositionAttraction, Sum
 from ...scene import PlacedArm
 from .delicate import MINIMA
 from .scenario import GAINS

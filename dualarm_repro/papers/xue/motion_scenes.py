@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...planning.control_points import end_effector
+from ...planning.field.control_points import end_effector
 from ...planning.plan import Plan
 from ...scene import JointPath
 from ...view.scene3d import Scene3D

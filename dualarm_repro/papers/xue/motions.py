@@ -9,10 +9,10 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from ...errors import InputError
-from ...planning.compiled import plan_apf_compiled
-from ...planning.control_points import control_points
+from ...planning.descent.compiled import plan_apf_compiled
+from ...planning.field.control_points import control_points
+from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.master_slave import at_tool_speed
-from ...planning.obstacles import Obstacles, obstacles_of
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
 from ...scene import JointPath, PlacedArm, Scene

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...ledger import Assumed, Is, Residual, Result, Role
-from ...planning.control_points import control_points, end_effector, ends_of
-from ...planning.problem import Problem
-from ...planning.virtual_point import initial
+from ...planning.descent.problem import Problem
+from ...planning.descent.virtual_point import initial
+from ...planning.field.control_points import control_points, end_effector, ends_of
 from ...view.shares import curve_figure
 from .agreement import GRADIENT, VALUE, agreement, checks, choices, difference, worst
 from .chosen import nominal

@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Result
-from ...planning.batch import plan_batch
+from ...planning.descent.batch import plan_batch
 from .layout import placed_slave
 from .motions import Case, slave_obstacles
 from .table_2 import Trials, assumed_trials

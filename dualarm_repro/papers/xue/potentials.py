@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...ledger import Assumed, Bounded, Is, Residual, Result, Role
-from ...planning.control_points import end_effector
-from ...planning.problem import Problem
+from ...planning.descent.problem import Problem
+from ...planning.field.control_points import end_effector
 from ...tracking import memo
 from .agreement import GRADIENT, VALUE, agreement, checks, choices, difference, worst
 from .printed_field import attraction, repulsion, repulsive_force, slope, value

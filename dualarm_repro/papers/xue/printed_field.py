@@ -14,8 +14,8 @@ import numpy as np
 from ...errors import DataFileError
 from ...ledger import REGISTRY
 from ...ledger.formula import Formula, parse
-from ...planning.control_points import end_effector
-from ...planning.problem import Problem
+from ...planning.descent.problem import Problem
+from ...planning.field.control_points import end_effector
 from ...tracking import memo
 from .scenario import GAINS
 

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result, Role
-from ...planning.problem import problem
-from ...planning.termination import StopReason
+from ...planning.descent.problem import problem
+from ...planning.descent.termination import StopReason
 from ...tracking import memo
 from .chosen import assumption, nominal
 from .layout import placed_slave

@@ -6,9 +6,9 @@ import numpy as np
 import pinocchio as pin
 
 from ...arms import load_arm
-from ...planning.obstacles import obstacles_of
-from ...planning.potentials import Potential
-from ...planning.problem import Problem, problem
+from ...planning.descent.problem import Problem, problem
+from ...planning.field.obstacles import obstacles_of
+from ...planning.field.potentials import Potential
 from ...planning.settings import (
     APFSettings,
     Attraction,

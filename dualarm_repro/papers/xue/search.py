@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Study
-from ...planning.termination import StopReason
+from ...planning.descent.termination import StopReason
 from .chosen import KEPT, Chosen, assumption, nominal
 from .facts import flange_to_window, flanges_apart_moving, points_to_window, through_window
 from .layout import Layout, placed_master

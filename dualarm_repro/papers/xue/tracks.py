@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
-from ...planning.control_points import end_effector
+from ...planning.field.control_points import end_effector
 from ...planning.plan import Plan
 from ...scene import JointPath
 from ...tracking import memo

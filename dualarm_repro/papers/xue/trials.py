@@ -11,10 +11,10 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.stats import binomtest
 
-from ...planning.batch import perturbed, plan_batch
-from ...planning.problem import problem
+from ...planning.descent.batch import perturbed, plan_batch
+from ...planning.descent.problem import problem
+from ...planning.descent.termination import StopReason, within
 from ...planning.settings import APFSettings
-from ...planning.termination import StopReason, within
 from .layout import placed_slave
 from .methods import improved, joint_term_only, traditional
 from .motions import Case, slave_obstacles

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...planning.link_clearance import LinkClearance, link_clearance
+from ...planning.checks.link_clearance import LinkClearance, link_clearance
 from ...planning.plan import Plan
 from ...scene import JointPath
 from .layout import Layout, scene_of

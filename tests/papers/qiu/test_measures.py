@@ -6,7 +6,7 @@ import pytest
 from dualarm_repro.papers.qiu.improvements import RATIOS, nearest
 from dualarm_repro.papers.qiu.operations import operations
 from dualarm_repro.papers.qiu.smoothness import bending, until_rest
-from dualarm_repro.planning.hull_obstacle import hull_track, point_hull
+from dualarm_repro.planning.field.hull_obstacle import hull_track, point_hull
 from dualarm_repro.scene.points import point_capsule
 from dualarm_repro.scene.vectors import dot, minus
 

@@ -20,9 +20,9 @@ from dualarm_repro.papers.qiu.readings import (
     traditional_plan,
 )
 from dualarm_repro.papers.qiu.scenario import ZETA, placed
-from dualarm_repro.planning.bidirectional import repulsive_torque, surroundings_at
-from dualarm_repro.planning.contact_check import contact_check
-from dualarm_repro.planning.failure import Failure, classify
+from dualarm_repro.planning.checks.contact_check import contact_check
+from dualarm_repro.planning.search.bidirectional import repulsive_torque, surroundings_at
+from dualarm_repro.planning.search.failure import Failure, classify
 from dualarm_repro.scene import JointPath
 
 

@@ -35,7 +35,7 @@ from dualarm_repro.papers.qiu.scenario import (
     shoulder,
     spheres,
 )
-from dualarm_repro.planning.control_points import end_effector
+from dualarm_repro.planning.field.control_points import end_effector
 from dualarm_repro.scene import load_scene
 from dualarm_repro.scene.posing import links_of
 

@@ -22,7 +22,7 @@ from dualarm_repro.papers.xue.trials import (
     wilson,
 )
 from dualarm_repro.planning import StopReason, plan_apf_compiled
-from dualarm_repro.planning.problem import problem
+from dualarm_repro.planning.descent.problem import problem
 
 
 @pytest.fixture(scope="module")

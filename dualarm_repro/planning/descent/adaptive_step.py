@@ -1,0 +1,34 @@
+"""Step length that follows the distances of the control points to the obstacles.
+
+alpha = alpha_0 s with s between ``floor`` and ``cap``, sum tau_i = 1:
+
+* saturating: s = sum tau_i min(1, rho_i/rho_0);
+* plain_distance: s = sum tau_i rho_i, which depends on the unit of length;
+* relative: s = 1 + sum tau_i (rho_i - rho_0)/rho_0, above 1 far from obstacles.
+"""
+
+from __future__ import annotations
+
+from ...kernel import kernel
+from ..search.bidirectional_settings import StepRule
+from ..settings import code
+
+_CONSTANT, _SATURATING, _PLAIN = map(
+    code, (StepRule.CONSTANT, StepRule.SATURATING, StepRule.PLAIN_DISTANCE)
+)
+
+
+@kernel
+def step_length(rule, length, floor, cap, weights, rho, influence):
+    """alpha [rad] for distances ``rho`` (K,) [m], infinite without obstacles."""
+    if rule == _CONSTANT:
+        return length
+    share = 0.0
+    for k in range(len(rho)):
+        if rule == _SATURATING:
+            share += weights[k] * min(1.0, rho[k] / influence)
+        elif rule == _PLAIN:
+            share += weights[k] * rho[k]
+        else:
+            share += weights[k] * rho[k] / influence
+    return length * min(max(share, floor), cap)

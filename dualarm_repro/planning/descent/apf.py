@@ -1,0 +1,101 @@
+"""Descent of an artificial potential field, readable; :mod:`.compiled` runs the same loop."""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...scene.bodies import PlacedArm
+from ..field.control_points import end_effector
+from ..field.obstacles import Obstacles
+from ..plan import Plan
+from ..settings import APFSettings, code
+from .outcome import Record, finished
+from .problem import Problem, problem
+from .termination import StopReason, is_stuck, within
+from .updates import next_configuration
+from .virtual_point import initial, may_finish, switched
+
+
+def plan_apf(
+    placed: PlacedArm,
+    start: ArrayLike,
+    goal: ArrayLike,
+    obstacles: Obstacles,
+    settings: APFSettings,
+) -> Plan:
+    """Follow -dU/dq, U = U_att + U_rep (+ U_v while a virtual point acts), until a named end.
+
+    Each step: has the arm arrived; does it stand still; is the virtual point to be switched; move.
+    The settings bound the number of steps. Moving obstacles are met at the index of the step.
+
+    Parameters
+    ----------
+    start, goal : (nq,)
+        [rad]
+
+    Raises
+    ------
+    ConfigurationError, InputError
+        See :func:`.problem.problem`.
+    """
+    made = problem(placed, start, goal, obstacles, settings)
+    return finished(made, descend(made))
+
+
+def descend(made: Problem) -> Record:
+    """The loop of :func:`plan_apf`."""
+    began = perf_counter()
+    end, trap, rules = made.settings.termination, made.settings.termination.trap, made.switch_rules
+    path = np.empty((end.step_limit + 1, len(made.start)))
+    potential = np.empty(end.step_limit + 1)
+    path[0], state, rows = made.start, initial(rules), []
+    for step, q in enumerate(path):
+        reason = None
+        potential[step] = made.field_in(state).value(q, step)
+        if may_finish(state, rules) and within(*made.errors(q), *made.tolerances):
+            reason = StopReason.REACHED
+        elif step == end.step_limit:
+            reason = StopReason.STEP_LIMIT
+        else:
+            judged = (code(trap.rule), trap.steps, trap.threshold)
+            waiting = trap.after_obstacles_rest and made.obstacles.moving(step)
+            stuck = not waiting and is_stuck(*judged, path, potential, state.since, step)
+            state = switched(state, rules, stuck, _to_virtual_point(made, q), step)
+            if state.trapped:
+                reason = StopReason.TRAPPED
+        rows.append(_terms(made, q, step, state.active))
+        if reason is not None:
+            break
+        field, update = made.field_in(state), made.settings.update
+        path[step + 1] = next_configuration(field, q, step, update, *made.limits)
+    *terms, active = map(np.array, zip(*rows, strict=True))
+    return Record(
+        path[: step + 1].copy(),
+        *terms,
+        active,
+        reason,
+        state.activations,
+        state.arrivals,
+        perf_counter() - began,
+    )
+
+
+def _terms(made: Problem, q: np.ndarray, step: int, active: bool) -> tuple:
+    """Attractive, repulsive (K,) and virtual potential, clearance (K,), whether the point acts."""
+    return (
+        made.attraction.value(q),
+        made.repulsion.terms(q, step),
+        made.virtual.value(q) if active else 0.0,
+        made.repulsion.distances(q, step).min(axis=1, initial=np.inf),
+        active,
+    )
+
+
+def _to_virtual_point(made: Problem, q: np.ndarray) -> float:
+    point = made.settings.virtual_point
+    if point is None:
+        return np.inf
+    return float(np.linalg.norm(end_effector(made.placed, q) - np.array(point.position)))

@@ -1,0 +1,101 @@
+"""Joint steps: how a potential moves an arm. One step per call, readable form.
+
+Results stay within ``lower`` and ``upper``, which are infinite unless limits are enforced.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from ..field.potentials import Potential
+from ..settings import Update, UpdateRule
+
+#: Of two neighbours whose potentials agree to this share, the first is taken.
+TIE = 1e-12
+#: Share of U below which a predicted decrease drowns in rounding.
+ROUNDING = 1e-12
+#: Order of the changes of one joint; staying comes first.
+CHANGES = (0.0, -1.0, 1.0)
+
+
+def next_configuration(
+    potential: Potential,
+    q: np.ndarray,
+    step: int,
+    update: Update,
+    lower: np.ndarray,
+    upper: np.ndarray,
+) -> np.ndarray:
+    """The configuration after one step by the rule of ``update``, (nq,)."""
+    rule = {
+        UpdateRule.GRADIENT: gradient_step,
+        UpdateRule.FIXED_LENGTH: fixed_length_step,
+        UpdateRule.NEIGHBOUR_SEARCH: neighbour_step,
+    }[update.rule]
+    return rule(potential, q, step, update, lower, upper)
+
+
+def gradient_step(
+    potential: Potential,
+    q: np.ndarray,
+    step: int,
+    update: Update,
+    lower: np.ndarray,
+    upper: np.ndarray,
+) -> np.ndarray:
+    """q - t g, t = min(eta, delta/|g|), halved until U falls by a share of what g predicts.
+
+    Sufficient decrease: L. Armijo, Minimization of functions having Lipschitz continuous first
+    partial derivatives, Pacific J. Math. 16, 1966. Where none is left that rounding could not
+    feign, or after the last halving, q stays: at a minimum, or on a crease of U.
+    """
+    g = potential.gradient(q, step)
+    length = np.linalg.norm(g)
+    if length == 0.0:
+        return q
+    t = min(update.gain, update.max_step / length)
+    here = potential.value(q, step)
+    for _ in range(update.max_halvings + 1):
+        trial = np.clip(q - t * g, lower, upper)
+        predicted = g @ (trial - q)
+        if -predicted <= ROUNDING * here:
+            break
+        if potential.value(trial, step) <= here + update.sufficient_decrease * predicted:
+            return trial
+        t *= 0.5
+    return q
+
+
+def fixed_length_step(
+    potential: Potential,
+    q: np.ndarray,
+    step: int,
+    update: Update,
+    lower: np.ndarray,
+    upper: np.ndarray,
+) -> np.ndarray:
+    """q - delta g/|g|; around a minimum it chatters with this length."""
+    g = potential.gradient(q, step)
+    length = np.linalg.norm(g)
+    return q if length == 0.0 else np.clip(q - update.max_step / length * g, lower, upper)
+
+
+def neighbour_step(
+    potential: Potential,
+    q: np.ndarray,
+    step: int,
+    update: Update,
+    lower: np.ndarray,
+    upper: np.ndarray,
+) -> np.ndarray:
+    """argmin of U over the 3^nq neighbours q + delta {0, -1, 1}^nq."""
+    offsets = update.max_step * np.array(list(product(CHANGES, repeat=len(q))))
+    neighbours = np.clip(q + offsets, lower, upper)
+    values = potential.value(neighbours, step)
+    best = 0
+    for k, value in enumerate(values):
+        if value < values[best] * (1.0 - TIE):
+            best = k
+    return neighbours[best]

@@ -1,0 +1,1 @@
+"""The potential field: control points, obstacles, attraction and repulsion."""

@@ -1,0 +1,153 @@
+"""An arm on its path as a moving convex obstacle: the hull of circles at its joint origins."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import spatial
+
+from ...kernel import kernel
+from ...scene.bodies import PlacedArm
+from ...scene.hull import circle_points
+from ...scene.posing import link_frames
+from ...scene.vectors import along, dot, minus, scaled, vector
+from .control_points import base_of
+
+FAR = np.inf
+
+
+class HullTrack(NamedTuple):
+    """Hulls at T rows: outward planes n . x + c <= 0 (T, F, 4), corners of the faces (T, F, 3, 3).
+
+    Rows with fewer faces repeat their last one. Without any row nothing is in the way.
+    """
+
+    planes: np.ndarray
+    triangles: np.ndarray
+
+
+class JointCircles(NamedTuple):
+    """Circles at joint origins: frame numbers 1 ... nq + 1 (the flange) (C,), radii (C,) [m],
+    points per circle, and whether their planes contain the joint axis instead of being normal to
+    it."""
+
+    frames: tuple[int, ...]
+    radii: tuple[float, ...]
+    count: int
+    containing_axis: bool = False
+
+
+NO_HULL = HullTrack(np.empty((0, 0, 4)), np.empty((0, 0, 3, 3)))
+
+
+def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.ndarray:
+    """Points of the circles in the world for configurations (N, nq), (N, C count, 3) [m].
+
+    The circle at the flange lies normal to the last axis.
+    """
+    arm, number = placed.arm, np.array(circles.frames)
+    carrier = np.minimum(number, arm.nq)
+    at_flange = number[:, np.newaxis] > arm.nq
+    centres = np.where(at_flange, arm.chain.translation[-1], 0.0)
+    axes = np.eye(3)[[0 if circles.containing_axis else 2] * len(number)]
+    local = circle_points(centres, axes, circles.radii, circles.count)
+    frames = link_frames(arm.chain, base_of(placed), q)[:, np.repeat(carrier, circles.count)]
+    return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
+
+
+def hull_track(points: np.ndarray) -> HullTrack:
+    """Convex hulls of point sets (T, M, 3)."""
+    hulls = [spatial.ConvexHull(row) for row in points]
+    most = max((len(hull.simplices) for hull in hulls), default=0)
+    planes, triangles = np.empty((len(hulls), most, 4)), np.empty((len(hulls), most, 3, 3))
+    for k, (hull, row) in enumerate(zip(hulls, points, strict=True)):
+        faces = len(hull.simplices)
+        planes[k, :faces], planes[k, faces:] = hull.equations, hull.equations[-1]
+        corners = row[hull.simplices]
+        triangles[k, :faces], triangles[k, faces:] = corners, corners[-1]
+    return HullTrack(planes, triangles)
+
+
+def hull_distance(
+    point: np.ndarray, planes: np.ndarray, triangles: np.ndarray
+) -> tuple[float, np.ndarray]:
+    """Signed distance of a point (3,) to a hull and its gradient; readable twin of
+    :func:`point_hull`.
+
+    Inside it is the height over the nearest plane, outside the distance to the nearest face.
+    """
+    height = planes[:, :3] @ point + planes[:, 3]
+    top = int(height.argmax())
+    if height[top] <= 0.0:
+        return float(height[top]), planes[top, :3].copy()
+    feet = np.array([_nearest_on_triangle(point, corners) for corners in triangles[height > 0.0]])
+    gaps = point - feet
+    distance = np.linalg.norm(gaps, axis=1)
+    best = int(distance.argmin())
+    return float(distance[best]), gaps[best] / distance[best]
+
+
+@kernel
+def point_hull(p, planes, triangles):
+    """Signed distance of a point to a hull [m] and the direction in which it grows."""
+    top, height = 0, -np.inf
+    for f in range(len(planes)):
+        above = dot(vector(planes[f]), p) + planes[f, 3]
+        if above > height:
+            top, height = f, above
+    if height <= 0.0:
+        return height, vector(planes[top])
+    best, gap = np.inf, p
+    for f in range(len(planes)):
+        above = dot(vector(planes[f]), p) + planes[f, 3]
+        if 0.0 < above < best:
+            away = minus(p, on_triangle(p, triangles[f]))
+            length = dot(away, away) ** 0.5
+            if length < best:
+                best, gap = length, away
+    return best, scaled(1.0 / best, gap)
+
+
+@kernel
+def on_triangle(p, corners):
+    """Nearest point of a triangle (3, 3), by the regions of its corners, edges and face.
+
+    C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
+    """
+    a, b, c = vector(corners[0]), vector(corners[1]), vector(corners[2])
+    ab, ac, ap = minus(b, a), minus(c, a), minus(p, a)
+    d1, d2 = dot(ab, ap), dot(ac, ap)
+    if d1 <= 0.0 and d2 <= 0.0:
+        return a
+    bp = minus(p, b)
+    d3, d4 = dot(ab, bp), dot(ac, bp)
+    if d3 >= 0.0 and d4 <= d3:
+        return b
+    cp = minus(p, c)
+    d5, d6 = dot(ab, cp), dot(ac, cp)
+    if d6 >= 0.0 and d5 <= d6:
+        return c
+    vc, vb, va = d1 * d4 - d3 * d2, d5 * d2 - d1 * d6, d3 * d6 - d5 * d4
+    if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        return along(a, d1 / (d1 - d3), ab)
+    if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        return along(a, d2 / (d2 - d6), ac)
+    if va <= 0.0 and d4 - d3 >= 0.0 and d5 - d6 >= 0.0:
+        return along(b, (d4 - d3) / ((d4 - d3) + (d5 - d6)), minus(c, b))
+    total = va + vb + vc
+    return along(along(a, vb / total, ab), vc / total, ac)
+
+
+def _nearest_on_triangle(p: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The foot of the plumb line if it is inside, else the nearest point of the three edges."""
+    a, b, c = corners
+    normal = np.cross(b - a, c - a)
+    weights = np.linalg.solve(np.column_stack([a - c, b - c, normal]), p - c)[:2]
+    if weights.min() >= 0.0 and weights.sum() <= 1.0:
+        return c + weights @ np.array([a - c, b - c])
+    feet = []
+    for start, end in ((a, b), (b, c), (c, a)):
+        edge = end - start
+        feet.append(start + np.clip((p - start) @ edge / (edge @ edge), 0.0, 1.0) * edge)
+    return min(feet, key=lambda foot: float(np.linalg.norm(p - foot)))

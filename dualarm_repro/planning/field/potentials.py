@@ -1,0 +1,183 @@
+"""Potentials over the joints of an arm, each with its value and its gradient by q.
+
+They add up: a planner descends the sum. The value of many configurations at once serves searches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ...scene.bodies import PlacedArm
+from ...scene.posing import link_frames, place_cores
+from ..settings import Combination
+from .control_points import ControlPoints, base_of, end_effector, ends_of
+from .obstacles import Obstacles
+
+
+class Potential(Protocol):
+    """U(q) at a step of the plan, to which moving obstacles have moved."""
+
+    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+        """U for (nq,) -> float or for (N, nq) -> (N,)."""
+
+    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """dU/dq (nq,) for one configuration (nq,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class PositionAttraction:
+    """U = k/2 |X(q) - X_t|^2, dU/dq = k J^T (X - X_t), with the flange X and its Jacobian J.
+
+    O. Khatib, Real-time obstacle avoidance for manipulators and mobile robots, IJRR 5(1), 1986.
+
+    Attributes
+    ----------
+    target : ndarray (3,)
+        X_t in the world [m].
+    gain : float
+        k
+    """
+
+    placed: PlacedArm
+    target: np.ndarray
+    gain: float
+
+    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+        """U; ``step`` is of no consequence."""
+        return 0.5 * self.gain * np.sum((end_effector(self.placed, q) - self.target) ** 2, axis=-1)
+
+    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """dU/dq (nq,)."""
+        J = self.placed.placement.rotation @ self.placed.arm.jacobian(q)[:3]
+        return self.gain * J.T @ (end_effector(self.placed, q) - self.target)
+
+
+@dataclass(frozen=True, eq=False)
+class JointAttraction:
+    """U = k/2 |q - q_t|^2, dU/dq = k (q - q_t).
+
+    Beside a position term the gain carries the unit m^2/rad^2: its number depends on the unit of
+    length.
+
+    Attributes
+    ----------
+    target : ndarray (nq,)
+        q_t [rad].
+    gain : float
+        k
+    """
+
+    target: np.ndarray
+    gain: float
+
+    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+        """U; ``step`` is of no consequence."""
+        return 0.5 * self.gain * np.sum((q - self.target) ** 2, axis=-1)
+
+    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """dU/dq (nq,)."""
+        return self.gain * (q - self.target)
+
+
+@dataclass(frozen=True, eq=False)
+class PointRepulsion:
+    """U = sum_i w_i sum_m u(d_im), u = k/2 (1/d - 1/d_0)^2 for d < d_0 and 0 beyond; Khatib 1986.
+
+    d_im is the signed distance of control point i to shape m. Below the contact distance d_c, and
+    so inside an obstacle, u goes on along its tangent, u(d_c) + u'(d_c) (d - d_c): finite, and its
+    gradient points out.
+
+    With ``Combination.SUM`` every shape repels. With ``Combination.NEAREST`` of each obstacle only
+    the shape nearest to the control point does: U then has creases where the nearest shape
+    changes, on which a descent can halt although no gradient vanishes.
+
+    Attributes
+    ----------
+    gain : float
+        k
+    influence, contact : float
+        d_0 and d_c [m].
+    """
+
+    placed: PlacedArm
+    points: ControlPoints
+    obstacles: Obstacles
+    gain: float
+    influence: float
+    contact: float
+    combination: Combination
+
+    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+        """U."""
+        return self.terms(q, step).sum(axis=-1)
+
+    def terms(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """Share of each control point in U, (K,) or (N, K)."""
+        return self._shares(q, step).sum(axis=-1)
+
+    def acting(self, q: np.ndarray, step: int = 0) -> tuple[str, ...]:
+        """Names of the shapes that repel at one configuration."""
+        acts = self._shares(q, step).any(axis=0)
+        return tuple(name for name, on in zip(self.obstacles.names, acts, strict=True) if on)
+
+    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
+        frames = link_frames(self.placed.arm.chain, base_of(self.placed), q[np.newaxis])
+        ends = np.empty((1, len(self.points.joint), 2, 3))
+        place_cores(frames, self.points.joint, self.points.local, ends)
+        found = self.obstacles.distances(ends, self.points.radius, step)
+        distance, point, outward = (part[0] for part in found)
+        axes, origins = frames[0, 1:, :, 2], frames[0, 1:, :, 3]
+        velocity = np.cross(axes, point[:, :, np.newaxis] - origins)
+        carried = np.arange(1, len(q) + 1) <= self.points.joint[:, np.newaxis]
+        slope = self.points.weight[:, np.newaxis] * self._slope(distance) * self._chosen(distance)
+        return np.einsum("km,kmr,kmjr,kj->j", slope, outward, velocity, carried)
+
+    def distances(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """d_im, (K, M) or (N, K, M) [m]."""
+        ends = ends_of(self.placed, self.points, np.atleast_2d(q))
+        distance = self.obstacles.distances(ends, self.points.radius, step)[0]
+        return distance[0] if q.ndim == 1 else distance
+
+    def _shares(self, q: np.ndarray, step: int) -> np.ndarray:
+        distance = self.distances(q, step)
+        return self.points.weight[:, np.newaxis] * self._energy(distance) * self._chosen(distance)
+
+    def _energy(self, d: np.ndarray) -> np.ndarray:
+        near = np.clip(d, self.contact, self.influence)
+        energy = 0.5 * self.gain * (1.0 / near - 1.0 / self.influence) ** 2
+        return energy + self._slope(d) * np.minimum(d - self.contact, 0.0)
+
+    def _slope(self, d: np.ndarray) -> np.ndarray:
+        near = np.clip(d, self.contact, self.influence)
+        return -self.gain * (1.0 / near - 1.0 / self.influence) / near**2
+
+    def _chosen(self, distance: np.ndarray) -> np.ndarray:
+        """Mask of the shapes that count: all, or of each obstacle the nearest."""
+        if self.combination is Combination.SUM:
+            return np.ones(distance.shape, dtype=bool)
+        chosen = np.zeros(distance.shape, dtype=bool)
+        for group in set(self.obstacles.group.tolist()):
+            shapes = np.flatnonzero(self.obstacles.group == group)
+            nearest = shapes[distance[..., shapes].argmin(axis=-1)]
+            np.put_along_axis(chosen, nearest[..., np.newaxis], True, axis=-1)
+        return chosen
+
+
+@dataclass(frozen=True, eq=False)
+class Sum:
+    """U = sum of the parts."""
+
+    parts: Sequence[Potential]
+
+    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+        """U."""
+        return sum(part.value(q, step) for part in self.parts)
+
+    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+        """dU/dq (nq,)."""
+        return sum(part.gradient(q, step) for part in self.parts)

@@ -1,0 +1,1 @@
+"""What a plan is to do: goals, postures, task files."""
