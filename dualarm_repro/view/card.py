@@ -149,8 +149,8 @@ def robustness_text(found: dict[str, Any], verdict: str) -> str:
     """Robustness of a verdict in one sentence or two."""
     met, low, high = found["meets_print"]["share"], *found["meets_print"]["interval"]
     text = (
-        f"{share_of(verdict).capitalize()} in {percent(met)} of {found['samples']} draws of the assumptions "
-        f"(95 % interval {interval(low, high)}). "
+        f"{share_of(verdict).capitalize()} in {percent(met)} of {found['samples']} draws of the "
+        f"assumptions (95 % interval {interval(low, high)}). "
     )
     flip = found["flip"]
     if flip is None:

@@ -23,7 +23,8 @@ def firmness_svg(robustness: Mapping[str, Any], verdict: str) -> str:
     shown = list(robustness["influence"].items())[:_MOST]
     rows += [_row(k, name, index, None, "#E69F00") for k, (name, index) in enumerate(shown, 1)]
     height = _ROW * len(rows) + 4
-    text = f"{share_of(verdict).capitalize()} in {100 * met['share']:.0f} % of {robustness['samples']} draws"
+    draws = f"{100 * met['share']:.0f} % of {robustness['samples']} draws"
+    text = f"{share_of(verdict).capitalize()} in {draws}"
     if shown:
         named = ", ".join(f"{name} {index:.2f}" for name, index in shown)
         text += f"; first-order influence: {named}"

@@ -59,10 +59,8 @@ def verdict_text(made: dict[str, Any]) -> str:
     return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
 
 
-def robustness_line(
-    found: dict[str, Any] | None, verdict: str, draws: str = "none"
-) -> str:
-    """Share of the draws that meet print, or have the properties of what is ``regenerated``, what it hangs on and what flips it."""
+def robustness_line(found: dict[str, Any] | None, verdict: str, draws: str = "none") -> str:
+    """Share of the draws that meet print, what it hangs on and what flips it."""
     if found is None:
         return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
     low, high = found["meets_print"]["interval"]

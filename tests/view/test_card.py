@@ -53,7 +53,14 @@ def test_picture_has_a_bar_for_each_number():
     assert bars["width"] / bars["print is met"] == pytest.approx(0.61 / 0.05, rel=0.02)
     assert "5 % of 32 draws" in svg.title.get_text()
     assert svg.find("path", class_="whisker")
-    assert len(BeautifulSoup(firmness_svg({**ROBUST, "influence": {}}, POSSIBLE), "html.parser")("rect")) == 2
+    assert (
+        len(
+            BeautifulSoup(firmness_svg({**ROBUST, "influence": {}}, POSSIBLE), "html.parser")(
+                "rect"
+            )
+        )
+        == 2
+    )
 
 
 def test_sentence_on_robustness():
