@@ -19,7 +19,7 @@ checks = partial(REGISTRY.checks, page="pan/cell")
 
 @checks(
     "pan.claim_bases",
-    rules=[Adopts(key=name, to=name, label=f"{name} [m]") for name in ("base1", "base2", "base3")],
+    rules=[Adopts(name, f"{name} [m]", to=name) for name in ("base1", "base2", "base3")],
 )
 def positions(assumed: Assumed) -> Result:
     """Origins of the base frames that the cell uses."""
@@ -39,12 +39,12 @@ def positions(assumed: Assumed) -> Result:
 @checks(
     "pan.eq_base",
     rules=[
-        Adopts(key="matrix", to="matrix", label="pose of base 1 in the world, as used"),
+        Adopts("matrix", "pose of base 1 in the world, as used", to="matrix"),
         Is(
-            key="labelled_is_listed",
+            "labelled_is_listed",
+            "read as its label says, the matrix puts base 1 where the list has it",
             value=False,
             role=Role.CONTRADICTS,
-            label="read as its label says, the matrix puts base 1 where the list has it",
         ),
     ],
 )
@@ -102,7 +102,7 @@ def _places(positions: np.ndarray) -> str:
 
 @checks(
     "pan.claim_teaching",
-    rules=[NoOriginal(key="experiment", label="an experiment with taught robots")],
+    rules=[NoOriginal("experiment", "an experiment with taught robots")],
 )
 def teaching(assumed: Assumed) -> Result:
     """A statement about practice."""

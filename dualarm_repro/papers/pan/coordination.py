@@ -46,7 +46,7 @@ def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
 
 @checks(
     "pan.eq01",
-    rules=[Residual(key="residual", high=1e-7, label="both sides of the printed (1) differ by")],
+    rules=[Residual("residual", "both sides of the printed (1) differ by", high=1e-7)],
 )
 def tight_coordination(assumed: Assumed) -> Result:
     """Twists at two points of one rigid body, against central differences of a screw motion."""
@@ -79,14 +79,12 @@ def tight_coordination(assumed: Assumed) -> Result:
 @checks(
     "pan.eq02",
     rules=[
-        Residual(
-            key="residual", high=1e-9, label="both sides of the printed (2) differ by [m/rad]"
-        ),
-        Residual(key="across", high=1e-9, label="part of alpha_dot across the seam [m/rad]"),
+        Residual("residual", "both sides of the printed (2) differ by [m/rad]", high=1e-9),
+        Residual("across", "part of alpha_dot across the seam [m/rad]", high=1e-9),
         Bounded(
-            key="along",
+            "along",
+            "smallest alpha_dot along the seam, in radii of the branch per radian",
             low=1.0 - 1e-9,
-            label="smallest alpha_dot along the seam, in radii of the branch per radian",
         ),
     ],
 )
@@ -136,10 +134,8 @@ def loose_coordination(assumed: Assumed) -> Result:
 @checks(
     "pan.eq03",
     rules=[
-        Residual(
-            key="residual", high=1e-9, label="printed matrix and the pose the carriers hold differ"
-        ),
-        Residual(key="orthonormal", high=1e-12, label="R^T R - I is at most"),
+        Residual("residual", "printed matrix and the pose the carriers hold differ", high=1e-9),
+        Residual("orthonormal", "R^T R - I is at most", high=1e-12),
     ],
 )
 def workpiece_pose(assumed: Assumed) -> Result:
@@ -171,7 +167,7 @@ def workpiece_pose(assumed: Assumed) -> Result:
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
     @checks(
         item,
-        rules=[Residual(key="residual", high=1e-9, label="largest residual along the job [m]")],
+        rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)],
     )
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
@@ -201,7 +197,7 @@ _closure("pan.eq05", 1, ("r_2", "p_3"))
 
 @checks(
     "pan.eq06",
-    rules=[Residual(key="residual", high=1e-9, label="tip of the torch misses p_w by at most [m]")],
+    rules=[Residual("residual", "tip of the torch misses p_w by at most [m]", high=1e-9)],
 )
 def seam_in_world(assumed: Assumed) -> Result:
     """p_w = T_wc p_c, against the tip of the torch by forward kinematics of the welder."""
@@ -227,7 +223,7 @@ def seam_in_world(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq07",
-    rules=[Residual(key="residual", high=1e-9, label="p_B = T_Bc p_c holds for the welder to [m]")],
+    rules=[Residual("residual", "p_B = T_Bc p_c holds for the welder to [m]", high=1e-9)],
 )
 def seam_in_base(assumed: Assumed) -> Result:
     """p_B = T_Bc p_c in the frame of base 3, against the tip of the torch in that frame."""
@@ -252,7 +248,7 @@ def seam_in_base(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq08",
-    rules=[Residual(key="residual", high=1e-9, label="the product and the pose the carriers hold")],
+    rules=[Residual("residual", "the product and the pose the carriers hold", high=1e-9)],
 )
 def workpiece_in_base(assumed: Assumed) -> Result:
     """The product against the pose of the workpiece from the carriers' forward kinematics."""
@@ -279,8 +275,8 @@ def workpiece_in_base(assumed: Assumed) -> Result:
 @checks(
     "pan.claim_tight",
     rules=[
-        Residual(key="shift", high=1e-9, label="relative displacement of both flanges [m]"),
-        Residual(key="turn", high=1e-9, label="relative rotation of both flanges"),
+        Residual("shift", "relative displacement of both flanges [m]", high=1e-9),
+        Residual("turn", "relative rotation of both flanges", high=1e-9),
     ],
 )
 def no_relative_motion(assumed: Assumed) -> Result:

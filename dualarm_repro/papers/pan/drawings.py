@@ -33,8 +33,8 @@ _ROWS = {"translational": 3, "full": 6}
 @checks(
     "pan.fig01",
     rules=[
-        Residual(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
-        NoOriginal(key="drawing", label="the drawing"),
+        Residual("closure", "both carriers hold the workpiece, to [m]", high=1e-9),
+        NoOriginal("drawing", "the drawing"),
     ],
 )
 def welding_cell(assumed: Assumed) -> Result:
@@ -56,8 +56,8 @@ def welding_cell(assumed: Assumed) -> Result:
 @checks(
     "pan.fig02",
     rules=[
-        Residual(key="closure", high=1e-9, label="p2 + R r - p closes for both carriers, to [m]"),
-        NoOriginal(key="drawing", label="the drawing"),
+        Residual("closure", "p2 + R r - p closes for both carriers, to [m]", high=1e-9),
+        NoOriginal("drawing", "the drawing"),
     ],
 )
 def position_vectors(assumed: Assumed) -> Result:
@@ -82,8 +82,8 @@ def position_vectors(assumed: Assumed) -> Result:
     "pan.fig03",
     page="pan/measure",
     rules=[
-        Residual(key="fits", high=1e-8, label="extreme velocities lie on the drawn ellipsoids, to"),
-        NoOriginal(key="drawing", label="configuration and scale of the drawing"),
+        Residual("fits", "extreme velocities lie on the drawn ellipsoids, to", high=1e-8),
+        NoOriginal("drawing", "configuration and scale of the drawing"),
     ],
 )
 def three_ellipsoids(assumed: Assumed) -> Result:
@@ -120,9 +120,9 @@ def three_ellipsoids(assumed: Assumed) -> Result:
 @checks(
     "pan.fig04",
     rules=[
-        Residual(key="closure", high=1e-9, label="both carriers hold the workpiece, to [m]"),
-        Residual(key="tip", high=1e-9, label="the torch stays on the seam, to [m]"),
-        NoOriginal(key="picture", label="the picture"),
+        Residual("closure", "both carriers hold the workpiece, to [m]", high=1e-9),
+        Residual("tip", "the torch stays on the seam, to [m]", high=1e-9),
+        NoOriginal("picture", "the picture"),
     ],
 )
 def real_system(assumed: Assumed) -> Result:
@@ -149,10 +149,8 @@ def real_system(assumed: Assumed) -> Result:
 @checks(
     "pan.fig09",
     rules=[
-        Residual(
-            key="axis_error", high=1e-12, label="each z axis is the one its joint turns about, to"
-        ),
-        NoOriginal(key="parameters", label="the Denavit-Hartenberg parameters"),
+        Residual("axis_error", "each z axis is the one its joint turns about, to", high=1e-12),
+        NoOriginal("parameters", "the Denavit-Hartenberg parameters"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -180,10 +178,8 @@ def link_frames(assumed: Assumed) -> Result:
 @checks(
     "pan.fig10",
     rules=[
-        Bounded(
-            key="bare", high=0.0, label="how far a joint of the arm lies outside its capsules [m]"
-        ),
-        NoOriginal(key="geometry", label="the geometry of the links"),
+        Bounded("bare", "how far a joint of the arm lies outside its capsules [m]", high=0.0),
+        NoOriginal("geometry", "the geometry of the links"),
     ],
 )
 def spatial_model(assumed: Assumed) -> Result:
@@ -208,8 +204,8 @@ def spatial_model(assumed: Assumed) -> Result:
 @checks(
     "pan.tab_none",
     rules=[
-        Is(key="spherical_wrist", value=True, label="axes 4, 5 and 6 meet in one point"),
-        NoOriginal(key="parameters", label="parameters and joint limits of the ER16"),
+        Is("spherical_wrist", "axes 4, 5 and 6 meet in one point", value=True),
+        NoOriginal("parameters", "parameters and joint limits of the ER16"),
     ],
 )
 def robot_data(assumed: Assumed) -> Result:
@@ -245,10 +241,8 @@ def robot_data(assumed: Assumed) -> Result:
 @checks(
     "pan.fig12",
     rules=[
-        Residual(
-            key="tip_error", high=1e-9, label="the torch stays on the seam through the job, to [m]"
-        ),
-        NoOriginal(key="picture", label="the picture"),
+        Residual("tip_error", "the torch stays on the seam through the job, to [m]", high=1e-9),
+        NoOriginal("picture", "the picture"),
     ],
 )
 def simulation(assumed: Assumed) -> Result:

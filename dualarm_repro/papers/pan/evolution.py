@@ -38,13 +38,11 @@ class Runs:
     "pan.fig13",
     rules=[
         Residual(
-            key="recomputed",
+            "recomputed",
+            "fitness of the drawn positions and that which the runs reported differ by",
             high=1e-12,
-            label="fitness of the drawn positions and that which the runs reported differ by",
         ),
-        NoOriginal(
-            key="settings", label="the settings of the genetic algorithm and of the problem"
-        ),
+        NoOriginal("settings", "the settings of the genetic algorithm and of the problem"),
     ],
 )
 def best_individual(assumed: Assumed) -> Result:
@@ -78,12 +76,12 @@ def best_individual(assumed: Assumed) -> Result:
     "pan.fig14",
     rules=[
         Residual(
-            key="end",
+            "end",
+            "end of the upper curve and the fitness of the best individual differ by",
             high=1e-12,
-            label="end of the upper curve and the fitness of the best individual differ by",
         ),
-        Bounded(key="mean_above_best", high=0.0, label="how far a mean lies above its best value"),
-        NoOriginal(key="values", label="fitness values and settings"),
+        Bounded("mean_above_best", "how far a mean lies above its best value", high=0.0),
+        NoOriginal("values", "fitness values and settings"),
     ],
 )
 def fitness_curves(assumed: Assumed) -> Result:
@@ -113,11 +111,9 @@ def fitness_curves(assumed: Assumed) -> Result:
     "pan.fig15",
     rules=[
         Bounded(
-            key="outside",
-            high=0.0,
-            label="how far a mean distance exceeds the diagonal of the region [m]",
+            "outside", "how far a mean distance exceeds the diagonal of the region [m]", high=0.0
         ),
-        NoOriginal(key="values", label="distances and settings"),
+        NoOriginal("values", "distances and settings"),
     ],
 )
 def distance_curve(assumed: Assumed) -> Result:

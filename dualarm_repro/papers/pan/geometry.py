@@ -23,12 +23,8 @@ checks = partial(REGISTRY.checks, page="pan/cell")
 @checks(
     "pan.eq17",
     rules=[
-        Is(
-            key="on_pipes", value=True, label="the printed curve lies on both cylinders, in symbols"
-        ),
-        Residual(
-            key="points", high=1e-12, label="seam points used and the printed formula differ by [m]"
-        ),
+        Is("on_pipes", "the printed curve lies on both cylinders, in symbols", value=True),
+        Residual("points", "seam points used and the printed formula differ by [m]", high=1e-12),
     ],
 )
 def saddle_curve(assumed: Assumed) -> Result:
@@ -69,7 +65,7 @@ def _coordinates(symbols: dict[str, sp.Symbol]) -> list[sp.Expr]:
 
 @checks(
     "pan.claim_theta_range",
-    rules=[Adopts(key="theta", to="theta", label="range of theta that the seam covers [rad]")],
+    rules=[Adopts("theta", "range of theta that the seam covers [rad]", to="theta")],
 )
 def theta_range(assumed: Assumed) -> Result:
     """First value of theta and the end of the last step, of the seam that is used."""
@@ -87,8 +83,8 @@ def theta_range(assumed: Assumed) -> Result:
 @checks(
     "pan.fig05",
     rules=[
-        Residual(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
-        NoOriginal(key="radii", label="the radii and lengths of the pipes"),
+        Residual("residual", "the seam lies on both pipes, to [m]", high=1e-12),
+        NoOriginal("radii", "the radii and lengths of the pipes"),
     ],
 )
 def workpiece(assumed: Assumed) -> Result:
@@ -114,8 +110,8 @@ def workpiece(assumed: Assumed) -> Result:
 @checks(
     "pan.fig06",
     rules=[
-        Residual(key="residual", high=1e-12, label="the seam lies on both pipes, to [m]"),
-        NoOriginal(key="radii", label="the radii"),
+        Residual("residual", "the seam lies on both pipes, to [m]", high=1e-12),
+        NoOriginal("radii", "the radii"),
     ],
 )
 def curve(assumed: Assumed) -> Result:
@@ -137,8 +133,8 @@ def curve(assumed: Assumed) -> Result:
 @checks(
     "pan.fig07",
     rules=[
-        Residual(key="not_level", high=1e-9, label="slope of the seam at the point being welded"),
-        NoOriginal(key="posture", label="the rule of the flat position"),
+        Residual("not_level", "slope of the seam at the point being welded", high=1e-9),
+        NoOriginal("posture", "the rule of the flat position"),
     ],
 )
 def flat_points(assumed: Assumed) -> Result:
@@ -165,8 +161,8 @@ def flat_points(assumed: Assumed) -> Result:
 @checks(
     "pan.fig08",
     rules=[
-        Residual(key="residual", high=1e-9, label="the points are reached by the welder, to [m]"),
-        NoOriginal(key="position", label="the initial position used"),
+        Residual("residual", "the points are reached by the welder, to [m]", high=1e-9),
+        NoOriginal("position", "the initial position used"),
     ],
 )
 def points_in_base(assumed: Assumed) -> Result:

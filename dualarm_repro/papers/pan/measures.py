@@ -20,11 +20,7 @@ _STEP = 1e-6
 
 @checks(
     "pan.eq09",
-    rules=[
-        Residual(
-            key="difference", high=1e-7, label="J(q) q_dot and the motion of the flange, in (9)"
-        )
-    ],
+    rules=[Residual("difference", "J(q) q_dot and the motion of the flange, in (9)", high=1e-7)],
 )
 def differential_kinematics(assumed: Assumed) -> Result:
     """The Jacobian against central differences of the pose."""
@@ -46,11 +42,9 @@ def differential_kinematics(assumed: Assumed) -> Result:
 @checks(
     "pan.eq10",
     rules=[
-        Residual(
-            key="on_ellipsoid", high=1e-8, label="sides of the printed (10) for extreme motions"
-        ),
-        Bounded(key="inside", high=1.0 + 1e-8, label="largest value over unit joint velocities"),
-        Residual(key="axes", high=1e-9, label="printed axes against singular values of J"),
+        Residual("on_ellipsoid", "sides of the printed (10) for extreme motions", high=1e-8),
+        Bounded("inside", "largest value over unit joint velocities", high=1.0 + 1e-8),
+        Residual("axes", "printed axes against singular values of J", high=1e-9),
     ],
 )
 def velocity_ellipsoid(assumed: Assumed) -> Result:
@@ -88,11 +82,9 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
 @checks(
     "pan.eq11",
     rules=[
-        Residual(
-            key="closed_form", high=1e-12, label="closed form and the printed (11) differ by [m^3]"
-        ),
-        Residual(key="tool", high=1e-9, label="change of omega with the length of the tool [m^3]"),
-        Residual(key="axes_1_4_6", high=1e-12, label="change of omega with q1, q4 and q6 [m^3]"),
+        Residual("closed_form", "closed form and the printed (11) differ by [m^3]", high=1e-12),
+        Residual("tool", "change of omega with the length of the tool [m^3]", high=1e-9),
+        Residual("axes_1_4_6", "change of omega with q1, q4 and q6 [m^3]", high=1e-12),
     ],
 )
 def single_measure(assumed: Assumed) -> Result:
@@ -128,7 +120,7 @@ def single_measure(assumed: Assumed) -> Result:
 
 @checks(
     "pan.eq12",
-    rules=[Residual(key="difference", high=1e-7, label="X_dot and J Q_dot differ by at most")],
+    rules=[Residual("difference", "X_dot and J Q_dot differ by at most", high=1e-7)],
 )
 def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
@@ -152,15 +144,15 @@ def stacked_kinematics(assumed: Assumed) -> Result:
     "pan.eq13",
     rules=[
         Is(
-            key="stacked",
+            "stacked",
+            "stacked as printed, the vectors of both carriers fit the matrix of (14)",
             value=True,
-            label="stacked as printed, the vectors of both carriers fit the matrix of (14)",
         ),
         Is(
-            key="as_printed",
+            "as_printed",
+            "with the printed sizes the product (12) is defined",
             value=False,
             role=Role.CONTRADICTS,
-            label="with the printed sizes the product (12) is defined",
         ),
     ],
 )
@@ -194,11 +186,11 @@ def stacked_sizes(assumed: Assumed) -> Result:
     "pan.eq14",
     rules=[
         Residual(
-            key="difference",
+            "difference",
+            "printed blocks and the Jacobian of a model of both carriers differ by",
             high=1e-12,
-            label="printed blocks and the Jacobian of a model of both carriers differ by",
         ),
-        Is(key="size_agrees", value=True, label="the printed size is that of the Jacobian"),
+        Is("size_agrees", "the printed size is that of the Jacobian", value=True),
     ],
 )
 def generalized_jacobian(assumed: Assumed) -> Result:
@@ -236,10 +228,8 @@ def generalized_jacobian(assumed: Assumed) -> Result:
 @checks(
     "pan.eq15",
     rules=[
-        Residual(key="determinants", high=1e-12, label="the printed sides of (15) differ by [m^6]"),
-        Residual(
-            key="product", high=1e-12, label="(15) and the product of the single measures, [m^6]"
-        ),
+        Residual("determinants", "the printed sides of (15) differ by [m^6]", high=1e-12),
+        Residual("product", "(15) and the product of the single measures, [m^6]", high=1e-12),
     ],
 )
 def pair_measure(assumed: Assumed) -> Result:

@@ -51,11 +51,11 @@ def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
         item,
         rules=[
             Residual(
-                key="recomputed",
+                "recomputed",
+                "drawn manipulabilities and sqrt(det(J J^T)) of the joint paths differ by",
                 high=1e-12,
-                label="drawn manipulabilities and sqrt(det(J J^T)) of the joint paths differ by",
             ),
-            NoOriginal(key="position", label="the position and the values of the curves"),
+            NoOriginal("position", "the position and the values of the curves"),
         ],
     )
     def curves(assumed: Assumed) -> Result:
@@ -99,9 +99,9 @@ _poor_figure(
     "pan.claim_near_zero_robot3",
     rules=[
         Bounded(
-            key="largest_share",
+            "largest_share",
+            "welder's largest manipulability on the seam, as a share of the arm's largest",
             high="near_zero",
-            label="welder's largest manipulability on the seam, as a share of the arm's largest",
         ),
     ],
 )
@@ -132,9 +132,9 @@ def near_zero(assumed: Assumed) -> Result:
     "pan.claim_unstable_b",
     rules=[
         Bounded(
-            key="swing",
+            "swing",
+            "range of the system measure along the seam over its maximum, at position (b)",
             low="unsteady",
-            label="range of the system measure along the seam over its maximum, at position (b)",
         ),
     ],
 )

@@ -36,18 +36,18 @@ _TESTED = 24  # positions of each status
 @checks(
     "pan.eq_opt",
     rules=[
-        Is(key="variables", to="over", label="variables that are searched"),
+        Is("variables", "variables that are searched", to="over"),
         Is(
-            key="objective_is_printed",
+            "objective_is_printed",
+            "the fitness of the best position is the printed objective there",
             value=True,
-            label="the fitness of the best position is the printed objective there",
         ),
         Bounded(
-            key="disagreements",
+            "disagreements",
+            "positions where the printed constraints and the search disagree",
             high=0.0,
-            label="positions where the printed constraints and the search disagree",
         ),
-        Bounded(key="better", high=0.0, label="points of a second grid that are better"),
+        Bounded("better", "points of a second grid that are better", high=0.0),
     ],
 )
 def problem(assumed: Assumed) -> Result:
@@ -94,11 +94,11 @@ def problem(assumed: Assumed) -> Result:
 @checks(
     "pan.claim_constraints",
     rules=[
-        Is(key="count", to="count", label="constraints tested"),
-        Bounded(key="separation", low=0.0, label="smallest separation on a denser seam [m]"),
-        Bounded(key="joint_margin", low=0.0, label="smallest margin to a joint limit there [deg]"),
-        Bounded(key="rank", low=6, label="smallest rank of a Jacobian there"),
-        Is(key="reached", value=True, label="every robot reaches every point of it"),
+        Is("count", "constraints tested", to="count"),
+        Bounded("separation", "smallest separation on a denser seam [m]", low=0.0),
+        Bounded("joint_margin", "smallest margin to a joint limit there [deg]", low=0.0),
+        Bounded("rank", "smallest rank of a Jacobian there", low=6),
+        Is("reached", "every robot reaches every point of it", value=True),
     ],
 )
 def constraints(assumed: Assumed) -> Result:

@@ -33,14 +33,10 @@ _LABELS = {"inverted": "matrix as pose of the base", "literal": "matrix as label
     "pan.claim_optimum",
     rules=[
         Bounded(
-            key="distance",
-            high="inside_branch",
-            label="distance of the optimum to the printed point [m]",
+            "distance", "distance of the optimum to the printed point [m]", high="inside_branch"
         ),
         Bounded(
-            key="loss",
-            high="three_digits",
-            label="share of the best measure that the printed point lacks",
+            "loss", "share of the best measure that the printed point lacks", high="three_digits"
         ),
     ],
 )
@@ -139,11 +135,11 @@ def _told_fit(witnesses: list[dict[str, Any]]) -> str:
     "pan.fig16",
     rules=[
         Residual(
-            key="aggregated",
+            "aggregated",
+            "the drawn system measure, aggregated, and the fitness of the optimum differ by",
             high=1e-12,
-            label="the drawn system measure, aggregated, and the fitness of the optimum differ by",
         ),
-        NoOriginal(key="values", label="values of the curves"),
+        NoOriginal("values", "values of the curves"),
     ],
 )
 def optimal_curves(assumed: Assumed) -> Result:
@@ -173,12 +169,12 @@ def optimal_curves(assumed: Assumed) -> Result:
     "pan.fig17",
     rules=[
         Residual(
-            key="carried",
+            "carried",
+            "flange poses of the drawn joint angles and those of the job differ by",
             high=1e-9,
-            label="flange poses of the drawn joint angles and those of the job differ by",
         ),
-        Bounded(key="turns", high=0.0, label="full turns by which a joint fails to come back"),
-        NoOriginal(key="values", label="values of the curves"),
+        Bounded("turns", "full turns by which a joint fails to come back", high=0.0),
+        NoOriginal("values", "values of the curves"),
     ],
 )
 def joint_curves(assumed: Assumed) -> Result:

@@ -48,8 +48,8 @@ def run_of(assumed: Mapping[str, Any]) -> Evolution:
     "pan.claim_fitness_converges",
     samples=_DRAWS,
     rules=[
-        Bounded(key="late_gain", high="flat", label="gain of the best fitness in the last quarter"),
-        Bounded(key="gap", high="flat", label="gap of the last best fitness to the ground truth"),
+        Bounded("late_gain", "gain of the best fitness in the last quarter", high="flat"),
+        Bounded("gap", "gap of the last best fitness to the ground truth", high="flat"),
     ],
 )
 def fitness_converges(assumed: Assumed) -> Result:
@@ -74,14 +74,8 @@ def fitness_converges(assumed: Assumed) -> Result:
     "pan.claim_distance_to_zero",
     samples=_DRAWS,
     rules=[
-        Bounded(
-            key="ratio",
-            high="near_zero",
-            label="last mean distance over the first",
-        ),
-        Bounded(
-            key="trend", high=0.0, label="rank correlation of the mean distance with the generation"
-        ),
+        Bounded("ratio", "last mean distance over the first", high="near_zero"),
+        Bounded("trend", "rank correlation of the mean distance with the generation", high=0.0),
     ],
 )
 def distance_to_zero(assumed: Assumed) -> Result:
@@ -109,11 +103,11 @@ def distance_to_zero(assumed: Assumed) -> Result:
     "pan.claim_max_mmr",
     samples=_DRAWS,
     rules=[
-        Bounded(key="gap", high="three_digits", label="gap of a run to the ground truth"),
+        Bounded("gap", "gap of a run to the ground truth", high="three_digits"),
         Bounded(
-            key="violated",
+            "violated",
+            "whether a constraint is violated there, on a seam ten times as dense",
             high=0.0,
-            label="whether a constraint is violated there, on a seam ten times as dense",
         ),
     ],
 )

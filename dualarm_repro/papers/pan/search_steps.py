@@ -33,10 +33,10 @@ def declared_trace(**changes: Any) -> Trace:
 @checks(
     "pan.fig11",
     rules=[
-        Is(key="inputs", to="inputs", label="inputs whose effect is seen in a run"),
-        Is(key="steps", to="steps", label="steps seen in a run, in this order"),
-        Is(key="stops", to="stops", label="rules that can end a run"),
-        NoOriginal(key="chart", label="the content of the chart"),
+        Is("inputs", "inputs whose effect is seen in a run", to="inputs"),
+        Is("steps", "steps seen in a run, in this order", to="steps"),
+        Is("stops", "rules that can end a run", to="stops"),
+        NoOriginal("chart", "the content of the chart"),
     ],
 )
 def chart(assumed: Assumed) -> Result:
@@ -106,12 +106,12 @@ def seen_stops(traces: Sequence[Trace]) -> list[str]:
     "pan.claim_ga_stop",
     rules=[
         Bounded(
-            key="other_ends",
+            "other_ends",
+            "runs that did not end where the printed rules, recomputed, first hold",
             high=0.0,
-            label="runs that did not end where the printed rules, recomputed, first hold",
         ),
-        Bounded(key="by_limit", low=1, label="runs ended by the number of generations"),
-        Bounded(key="by_stall", low=1, label="runs ended by the change of the mean fitness"),
+        Bounded("by_limit", "runs ended by the number of generations", low=1),
+        Bounded("by_stall", "runs ended by the change of the mean fitness", low=1),
     ],
 )
 def two_stop_rules(assumed: Assumed) -> Result:
@@ -148,11 +148,11 @@ def two_stop_rules(assumed: Assumed) -> Result:
     "pan.claim_discard",
     rules=[
         Bounded(
-            key="infeasible_passed_on",
+            "infeasible_passed_on",
+            "infeasible individuals that pass on while feasible ones could",
             high=0.0,
-            label="infeasible individuals that pass on while feasible ones could",
         ),
-        Bounded(key="best_infeasible", high=0.0, label="runs whose best individual is infeasible"),
+        Bounded("best_infeasible", "runs whose best individual is infeasible", high=0.0),
     ],
 )
 def discarded(assumed: Assumed) -> Result:

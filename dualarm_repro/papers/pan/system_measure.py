@@ -30,12 +30,12 @@ _SAME = 1e-9
 @checks(
     "pan.eq16",
     rules=[
-        Residual(key="residual", high=1e-12, label="printed (16) and the measure used differ by"),
+        Residual("residual", "printed (16) and the measure used differ by", high=1e-12),
         Is(
-            key="one_unit",
+            "one_unit",
+            "by the printed (11), (15) and (16), MMR scales with one power of the length",
             value=False,
             role=Role.CONTRADICTS,
-            label="by the printed (11), (15) and (16), MMR scales with one power of the length",
         ),
     ],
 )
@@ -73,9 +73,9 @@ def system_measure(assumed: Assumed) -> Result:
     "pan.claim_beta_rule",
     rules=[
         Is(
-            key="follows_rule",
+            "follows_rule",
+            "the weights used in (16) are the ratios of the intersection to the ellipsoids",
             value=True,
-            label="the weights used in (16) are the ratios of the intersection to the ellipsoids",
         ),
     ],
 )

@@ -23,8 +23,8 @@ _RANDOM = 0.1  # [rad/s] size of a random state
     "patent.claim_accuracy",
     samples=16,
     rules=[
-        Bounded(key="tip_error_share", high=1, label="largest tip error over the bound on it"),
-        Is(key="completed", value=True, label="the task is completed"),
+        Bounded("tip_error_share", "largest tip error over the bound on it", high=1),
+        Is("completed", "the task is completed", value=True),
     ],
 )
 def accurate(assumed: Assumed) -> Result:

@@ -30,18 +30,16 @@ checks = partial(REGISTRY.checks, page="patent/avoidance")
     "patent.claim_limits",
     samples=32,
     rules=[
+        Bounded("naive_excess", "the pseudo-inverse exceeds an angle limit by [rad]", low=0.0),
+        Bounded("angle_excess", "the QP, at most by [rad]", high=0.0),
+        Bounded("network_excess", "the network, at most by [rad]", high=0.0),
         Bounded(
-            key="naive_excess", low=0.0, label="the pseudo-inverse exceeds an angle limit by [rad]"
-        ),
-        Bounded(key="angle_excess", high=0.0, label="the QP, at most by [rad]"),
-        Bounded(key="network_excess", high=0.0, label="the network, at most by [rad]"),
-        Bounded(
-            key="naive_speed_excess",
+            "naive_speed_excess",
+            "on a fast task the pseudo-inverse exceeds a speed limit by [rad/s]",
             low=0.0,
-            label="on a fast task the pseudo-inverse exceeds a speed limit by [rad/s]",
         ),
-        Bounded(key="speed_excess", high=1e-9, label="the QP, at most by [rad/s]"),
-        Bounded(key="network_speed_excess", high=0.0, label="the network, at most by [rad/s]"),
+        Bounded("speed_excess", "the QP, at most by [rad/s]", high=1e-9),
+        Bounded("network_speed_excess", "the network, at most by [rad/s]", high=0.0),
     ],
 )
 def respects_limits(assumed: Assumed) -> Result:
@@ -75,24 +73,16 @@ def respects_limits(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Residual(
-            key="outside",
+            "outside",
+            "beyond d1 the joint velocity is that without avoidance, to [rad/s]",
             high=1e-9,
-            label="beyond d1 the joint velocity is that without avoidance, to [rad/s]",
         ),
+        Bounded("inside", "within d1 it differs from that, at most by [rad/s]", low="adjusted"),
+        Bounded("shortfall", "the distance falls short of d2 by at most [m]", high="resolution"),
         Bounded(
-            key="inside",
-            low="adjusted",
-            label="within d1 it differs from that, at most by [rad/s]",
-        ),
-        Bounded(
-            key="shortfall",
+            "end_shortfall",
+            "after a start below d2 the distance falls short of d2 in the end by [m]",
             high="resolution",
-            label="the distance falls short of d2 by at most [m]",
-        ),
-        Bounded(
-            key="end_shortfall",
-            high="resolution",
-            label="after a start below d2 the distance falls short of d2 in the end by [m]",
         ),
     ],
 )
@@ -141,13 +131,11 @@ def two_ranges(assumed: Assumed) -> Result:
     "patent.claim_vs_pinv",
     samples=16,
     rules=[
-        Bounded(key="naive_distance", high=0.0, label="pseudo-inverse: smallest distance [m]"),
-        Bounded(key="distance", low=0.0, label="QP: smallest distance [m]"),
-        Bounded(
-            key="naive_excess", low=0.0, label="pseudo-inverse: excess over an angle limit [rad]"
-        ),
-        Bounded(key="excess", high=0.0, label="QP: excess over an angle limit [rad]"),
-        Bounded(key="period_share", high=1, label="operations of a step, share of the period"),
+        Bounded("naive_distance", "pseudo-inverse: smallest distance [m]", high=0.0),
+        Bounded("distance", "QP: smallest distance [m]", low=0.0),
+        Bounded("naive_excess", "pseudo-inverse: excess over an angle limit [rad]", low=0.0),
+        Bounded("excess", "QP: excess over an angle limit [rad]", high=0.0),
+        Bounded("period_share", "operations of a step, share of the period", high=1),
     ],
 )
 def against_pseudo_inverse(assumed: Assumed) -> Result:

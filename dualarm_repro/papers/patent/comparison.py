@@ -35,18 +35,16 @@ AVOIDANCE = (
     "patent.fig02",
     samples=32,
     rules=[
-        Bounded(key="naive_distance", high=0.0, label="without avoidance the arms touch [m]"),
+        Bounded("naive_distance", "without avoidance the arms touch [m]", high=0.0),
         Bounded(
-            key="shortfall",
-            high="resolution",
-            label="with it the distance falls short of d2 by at most [m]",
+            "shortfall", "with it the distance falls short of d2 by at most [m]", high="resolution"
         ),
         Bounded(
-            key="tip_steps",
+            "tip_steps",
+            "the tips leave their paths by at most what they move in a step, share",
             high=1,
-            label="the tips leave their paths by at most what they move in a step, share",
         ),
-        Is(key="completed", value=True, label="over the whole task"),
+        Is("completed", "over the whole task", value=True),
     ],
 )
 def comparison(assumed: Assumed) -> Result:

@@ -42,10 +42,10 @@ _MOST_STEPS, _MOST_ITERATIONS = 60, 30_000
     samples=32,
     rules=[
         Generally(
-            key="sooner",
+            "sooner",
+            "problems on which the network is near the minimiser with fewer operations",
             at_least="nearly_all",
             margin="margin",
-            label="problems on which the network is near the minimiser with fewer operations",
         ),
     ],
 )
@@ -112,8 +112,8 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
     "patent.claim_efficient",
     samples=32,
     rules=[
-        Is(key="arrives", value=True, label="the network comes within the threshold of x*"),
-        Bounded(key="saved", low=0.0, label="share of the operations of the exact method it saves"),
+        Is("arrives", "the network comes within the threshold of x*", value=True),
+        Bounded("saved", "share of the operations of the exact method it saves", low=0.0),
     ],
 )
 def faster_than_numerical(assumed: Assumed) -> Result:
@@ -163,10 +163,10 @@ def faster_than_numerical(assumed: Assumed) -> Result:
     page="patent/avoidance",
     rules=[
         Generally(
-            key="slower",
+            "slower",
+            "problems on which the pseudo-inverse takes more operations than either solver",
             at_least="nearly_all",
             margin="margin",
-            label="problems on which the pseudo-inverse takes more operations than either solver",
         ),
     ],
 )

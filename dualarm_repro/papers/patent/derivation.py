@@ -34,11 +34,11 @@ _STATES = 5  # random states about the rest point, for each form of the penalty
     "patent.eq_lagrangian",
     rules=[
         Residual(
-            key="gradient",
+            "gradient",
+            "the code's error is the derivative of the Lagrangian, share of the largest",
             high=1e-5,
-            label="the code's error is the derivative of the Lagrangian, share of the largest",
         ),
-        NoOriginal(key="formula", label="the Lagrangian"),
+        NoOriginal("formula", "the Lagrangian"),
     ],
 )
 def lagrange_function(assumed: Assumed) -> Result:
@@ -62,11 +62,11 @@ def lagrange_function(assumed: Assumed) -> Result:
     "patent.eq_kkt",
     rules=[
         Residual(
-            key="apart",
+            "apart",
+            "where both derivatives vanish, from the minimiser found without them [rad/s]",
             high=1e-6,
-            label="where both derivatives vanish, from the minimiser found without them [rad/s]",
         ),
-        NoOriginal(key="formula", label="the two derivatives"),
+        NoOriginal("formula", "the two derivatives"),
     ],
 )
 def optimality_conditions(assumed: Assumed) -> Result:
@@ -91,11 +91,11 @@ def optimality_conditions(assumed: Assumed) -> Result:
     "patent.eq_matrix",
     rules=[
         Residual(
-            key="derivatives",
+            "derivatives",
+            "left side less right side is both derivatives of the Lagrangian, share",
             high=1e-5,
-            label="left side less right side is both derivatives of the Lagrangian, share",
         ),
-        Residual(key="at_rest", high=1e-6, label="where the network rests both sides agree, to"),
+        Residual("at_rest", "where the network rests both sides agree, to", high=1e-6),
     ],
 )
 def matrix_form(assumed: Assumed) -> Result:
@@ -125,8 +125,8 @@ def matrix_form(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_error",
     rules=[
-        Residual(key="compiled", high=1e-9, label="the code's error differs from the printed one"),
-        Residual(key="at_minimiser", high=1e-6, label="and at the minimiser it is"),
+        Residual("compiled", "the code's error differs from the printed one", high=1e-9),
+        Residual("at_minimiser", "and at the minimiser it is", high=1e-6),
     ],
 )
 def error_function(assumed: Assumed) -> Result:
@@ -158,12 +158,8 @@ def error_function(assumed: Assumed) -> Result:
     "patent.eq_matrix_defs",
     samples=8,
     rules=[
-        Residual(
-            key="derivative",
-            high=1e-5,
-            label="the state matrix is the derivative of the error by y",
-        ),
-        NoOriginal(key="formula", label="the blocks"),
+        Residual("derivative", "the state matrix is the derivative of the error by y", high=1e-5),
+        NoOriginal("formula", "the blocks"),
     ],
 )
 def matrix_blocks(assumed: Assumed) -> Result:

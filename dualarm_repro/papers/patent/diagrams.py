@@ -17,8 +17,8 @@ checks = partial(REGISTRY.checks, page="patent/problem")
 @checks(
     "patent.fig01",
     rules=[
-        Is(key="parts", to="parts", label="a run of the code falls into the two parts, in order"),
-        Is(key="steps", to="steps", label="with the steps of the text, in the order of the text"),
+        Is("parts", "a run of the code falls into the two parts, in order", to="parts"),
+        Is("steps", "with the steps of the text, in the order of the text", to="steps"),
     ],
 )
 def flow_chart_figure(assumed: Assumed) -> Result:
@@ -52,8 +52,8 @@ def flow_chart_figure(assumed: Assumed) -> Result:
 @checks(
     "patent.fig03",
     rules=[
-        Is(key="not_run", value=0, label="steps of Fig. 1 that the program leaves out"),
-        NoOriginal(key="drawing", label="the drawing"),
+        Is("not_run", "steps of Fig. 1 that the program leaves out", value=0),
+        NoOriginal("drawing", "the drawing"),
     ],
 )
 def device(assumed: Assumed) -> Result:
@@ -79,11 +79,11 @@ def device(assumed: Assumed) -> Result:
 @checks(
     "patent.claim_claims10",
     rules=[
-        Is(key="details", to="details", label="claims 2 to 8 detail the steps of a run in order"),
-        Is(key="method", to="method", label="claims on the method"),
-        Is(key="device", to="device", label="claim on the device"),
-        Is(key="medium", to="medium", label="claim on the medium"),
-        Is(key="claims", to="claims", label="number of claims"),
+        Is("details", "claims 2 to 8 detail the steps of a run in order", to="details"),
+        Is("method", "claims on the method", to="method"),
+        Is("device", "claim on the device", to="device"),
+        Is("medium", "claim on the medium", to="medium"),
+        Is("claims", "number of claims", to="claims"),
     ],
 )
 def ten_claims(assumed: Assumed) -> Result:

@@ -26,12 +26,10 @@ _DIFFERENCE = 1e-6  # [rad] step of central differences
 @checks(
     "patent.eq_forward",
     rules=[
-        Residual(key="apart", high=1e-12, label="both printed sides agree, to [m]"),
-        Bounded(
-            key="other_solution", low="other", label="another solution for the same r is this far "
-            "[rad]"
-        ),
-        Residual(key="same_tips", high=1e-6, label="and has the same r, to [m]"),
+        Residual("apart", "both printed sides agree, to [m]", high=1e-12),
+        Bounded("other_solution", "another solution for the same r is this far "
+            "[rad]", low="other"),
+        Residual("same_tips", "and has the same r, to [m]", high=1e-6),
     ],
 )  # fmt: skip
 def forward_map(assumed: Assumed) -> Result:
@@ -61,9 +59,9 @@ def forward_map(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_velocity",
     rules=[
-        Residual(key="difference", high=1e-6, label="J theta' is the derivative of f, to [m/rad]"),
-        Bounded(key="coupling", high=0.0, label="entries that couple one arm to the other's tip"),
-        NoOriginal(key="formula", label="the equation of velocities"),
+        Residual("difference", "J theta' is the derivative of f, to [m/rad]", high=1e-6),
+        Bounded("coupling", "entries that couple one arm to the other's tip", high=0.0),
+        NoOriginal("formula", "the equation of velocities"),
     ],
 )
 def velocity_map(assumed: Assumed) -> Result:
@@ -97,11 +95,9 @@ def velocity_map(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_min_energy",
     rules=[
-        Bounded(
-            key="excess", high=1e-9, label="no joint velocity with the same tip velocity is smaller"
-        ),
-        Residual(key="to_pseudo_inverse", high=1e-9, label="distance to J^+ dr/dt [rad/s]"),
-        NoOriginal(key="formula", label="the objective"),
+        Bounded("excess", "no joint velocity with the same tip velocity is smaller", high=1e-9),
+        Residual("to_pseudo_inverse", "distance to J^+ dr/dt [rad/s]", high=1e-9),
+        NoOriginal("formula", "the objective"),
     ],
 )
 def least_velocity(assumed: Assumed) -> Result:

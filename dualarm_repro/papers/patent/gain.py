@@ -28,9 +28,9 @@ HORIZON = 6.0  # [s] after which gamma = 1 has reached most of its ceiling
     samples=32,
     rules=[
         Bounded(
-            key="sooner",
+            "sooner",
+            "the growing gain is below the threshold earlier by [s], at least one step",
             low="one_step",
-            label="the growing gain is below the threshold earlier by [s], at least one step",
         ),
     ],
 )

@@ -28,12 +28,8 @@ START = 0.1  # size of the error at the start of a decay
 @checks(
     "patent.eq_design",
     rules=[
-        Bounded(
-            key="defect",
-            high=1e-4,
-            label="error of the network against the design, share of the start",
-        ),
-        NoOriginal(key="formula", label="the decay of the error"),
+        Bounded("defect", "error of the network against the design, share of the start", high=1e-4),
+        NoOriginal("formula", "the decay of the error"),
     ],
 )
 def error_decay(assumed: Assumed) -> Result:
@@ -92,11 +88,9 @@ def _decay_defect(network: NetworkSettings) -> float:
     samples=16,
     rules=[
         Bounded(
-            key="defect",
-            high=1e-4,
-            label="along the motion, d xi/dt + gamma e^t Psi(xi), share of the gain",
+            "defect", "along the motion, d xi/dt + gamma e^t Psi(xi), share of the gain", high=1e-4
         ),
-        NoOriginal(key="formula", label="the state equation"),
+        NoOriginal("formula", "the state equation"),
     ],
 )
 def state_equation(assumed: Assumed) -> Result:
@@ -155,11 +149,11 @@ def state_equation(assumed: Assumed) -> Result:
     samples=8,
     rules=[
         Bounded(
-            key="defect_share",
+            "defect_share",
+            "theta* less the sum of the first n entries of y*, by the error of such a sum",
             high="quadrature",
-            label="theta* less the sum of the first n entries of y*, by the error of such a sum",
         ),
-        Bounded(key="tip_error", high="on_path", label="largest tip error [m]"),
+        Bounded("tip_error", "largest tip error [m]", high="on_path"),
     ],
 )
 def integration(assumed: Assumed) -> Result:

@@ -26,18 +26,16 @@ STIFFER = (1.0, 10.0, 100.0)
 @checks(
     "patent.eq_penalty",
     rules=[
-        Residual(key="first_derivative", high=1e-6, label="P' is the derivative of P, relative to"),
-        Residual(
-            key="second_derivative", high=1e-5, label="P'' is the derivative of P', relative to"
-        ),
-        Bounded(key="slope", low=0.0, label="P grows with the violation: smallest P'"),
-        Bounded(key="bend", low=0.0, label="P is convex: smallest P''"),
+        Residual("first_derivative", "P' is the derivative of P, relative to", high=1e-6),
+        Residual("second_derivative", "P'' is the derivative of P', relative to", high=1e-5),
+        Bounded("slope", "P grows with the violation: smallest P'", low=0.0),
+        Bounded("bend", "P is convex: smallest P''", low=0.0),
         Bounded(
-            key="inside",
+            "inside",
+            "slope as far inside a bound as sigma lets it see, share of that outside",
             high="inside",
-            label="slope as far inside a bound as sigma lets it see, share of that outside",
         ),
-        NoOriginal(key="formula", label="the penalty function"),
+        NoOriginal("formula", "the penalty function"),
     ],
 )
 def penalty_function(assumed: Assumed) -> Result:
@@ -74,13 +72,13 @@ def penalty_function(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_penalty_defs",
     rules=[
-        Is(key="without_effect", value=0, label="inequalities that do not enter the code's error"),
+        Is("without_effect", "inequalities that do not enter the code's error", value=0),
         Bounded(
-            key="nearer",
+            "nearer",
+            "stiffer by 100, P' misses the exact multipliers by this share of the miss",
             high="nearer",
-            label="stiffer by 100, P' misses the exact multipliers by this share of the miss",
         ),
-        NoOriginal(key="formula", label="the terms of the penalty"),
+        NoOriginal("formula", "the terms of the penalty"),
     ],
 )
 def stacked_inequalities(assumed: Assumed) -> Result:
@@ -118,12 +116,12 @@ def stacked_inequalities(assumed: Assumed) -> Result:
     "patent.eq_qp_penalized",
     rules=[
         Bounded(
-            key="bias_ratio",
+            "bias_ratio",
+            "a penalty stiffer by 10 is nearer to the exact minimiser by",
             low="nearer",
-            label="a penalty stiffer by 10 is nearer to the exact minimiser by",
         ),
-        Residual(key="equality", high=1e-8, label="the equality is kept exactly, to [m/s]"),
-        NoOriginal(key="formula", label="the penalised problem"),
+        Residual("equality", "the equality is kept exactly, to [m/s]", high=1e-8),
+        NoOriginal("formula", "the penalised problem"),
     ],
 )
 def penalised_problem(assumed: Assumed) -> Result:

@@ -32,12 +32,10 @@ _MOTIONS = 50  # random motions against the rows
     "patent.eq_joint_limits",
     samples=32,
     rules=[
-        Bounded(
-            key="angle_excess", high=0.0, label="bounded motion leaves an angle range by [rad]"
-        ),
-        Bounded(key="speed_excess", high=1e-9, label="and a speed range by [rad/s]"),
-        Bounded(key="standing", high=0.0, label="within the ranges, standing still is outside by"),
-        NoOriginal(key="formula", label="the inequality"),
+        Bounded("angle_excess", "bounded motion leaves an angle range by [rad]", high=0.0),
+        Bounded("speed_excess", "and a speed range by [rad/s]", high=1e-9),
+        Bounded("standing", "within the ranges, standing still is outside by", high=0.0),
+        NoOriginal("formula", "the inequality"),
     ],
 )
 def joint_limits(assumed: Assumed) -> Result:
@@ -81,20 +79,14 @@ def joint_limits(assumed: Assumed) -> Result:
     "patent.eq_avoid",
     samples=16,
     rules=[
+        Residual("gradient", "rows are derivatives of the distances, to [m/rad]", high=1e-6),
         Residual(
-            key="gradient", high=1e-6, label="rows are derivatives of the distances, to [m/rad]"
-        ),
-        Residual(
-            key="faster",
+            "faster",
+            "motion within the rows closes a distance below d1 faster than beta, by [m/s]",
             high=1e-6,
-            label="motion within the rows closes a distance below d1 faster than beta, by [m/s]",
         ),
-        Bounded(
-            key="mesh_excess",
-            high=1e-4,
-            label="moving link meshes stick out of the capsules by [m]",
-        ),
-        NoOriginal(key="formula", label="the inequality and the law of beta"),
+        Bounded("mesh_excess", "moving link meshes stick out of the capsules by [m]", high=1e-4),
+        NoOriginal("formula", "the inequality and the law of beta"),
     ],
 )
 def avoidance_rows(assumed: Assumed) -> Result:
@@ -130,16 +122,14 @@ def avoidance_rows(assumed: Assumed) -> Result:
 @checks(
     "patent.eq_qp",
     rules=[
-        Residual(
-            key="residual", high=1e-8, label="largest optimality residual of the exact method"
-        ),
+        Residual("residual", "largest optimality residual of the exact method", high=1e-8),
         Is(
-            key="disagree",
+            "disagree",
+            "solvers that end elsewhere than the exact method, by more than 1e-5 rad/s",
             value=0,
-            label="solvers that end elsewhere than the exact method, by more than 1e-5 rad/s",
         ),
-        Is(key="answered", value=0, label="impossible tasks answered without a word, of two"),
-        NoOriginal(key="formula", label="the assembled problem"),
+        Is("answered", "impossible tasks answered without a word, of two", value=0),
+        NoOriginal("formula", "the assembled problem"),
     ],
 )
 def quadratic_program(assumed: Assumed) -> Result:

@@ -19,29 +19,19 @@ checks = partial(REGISTRY.checks, page="patent/avoidance")
     "patent.claim_avoids",
     rules=[
         Generally(
-            key="free",
+            "free",
+            "colliding random tasks without contact, by the exact QP",
             at_least="nearly_all",
             margin="margin",
-            label="colliding random tasks without contact, by the exact QP",
         ),
+        Generally("kept", "and with d2 kept", at_least="nearly_all", margin="margin"),
         Generally(
-            key="kept",
+            "network_free",
+            "without contact, by the network",
             at_least="nearly_all",
             margin="margin",
-            label="and with d2 kept",
         ),
-        Generally(
-            key="network_free",
-            at_least="nearly_all",
-            margin="margin",
-            label="without contact, by the network",
-        ),
-        Generally(
-            key="network_kept",
-            at_least="nearly_all",
-            margin="margin",
-            label="and with d2 kept",
-        ),
+        Generally("network_kept", "and with d2 kept", at_least="nearly_all", margin="margin"),
     ],
 )
 def avoids(assumed: Assumed) -> Result:
@@ -87,16 +77,16 @@ def avoids(assumed: Assumed) -> Result:
     "patent.claim_task_completed",
     rules=[
         Generally(
-            key="done",
+            "done",
+            "tasks that joint limits alone allow, completed accurately by the exact QP",
             at_least="nearly_all",
             margin="margin",
-            label="tasks that joint limits alone allow, completed accurately by the exact QP",
         ),
         Generally(
-            key="network_done",
+            "network_done",
+            "the same by the network, without contact and within the speed limits",
             at_least="nearly_all",
             margin="margin",
-            label="the same by the network, without contact and within the speed limits",
         ),
     ],
 )

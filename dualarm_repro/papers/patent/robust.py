@@ -45,8 +45,8 @@ MEASURES: dict[str, Callable[[Motion], float]] = {
     samples=16,
     rules=[
         Exceeds(
-            key="advantage",
-            label="what the disturbance adds with the primal-dual network less that with the "
+            "advantage",
+            "what the disturbance adds with the primal-dual network less that with the "
             "network, by their sum",
         ),
     ],

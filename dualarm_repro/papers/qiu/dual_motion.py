@@ -31,7 +31,7 @@ _TIMES = 5
         Bounded(
             "largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"
         ),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def slave_joints(assumed: Assumed) -> Result:
@@ -68,7 +68,7 @@ def slave_joints(assumed: Assumed) -> Result:
     rules=[
         Bounded("end_error", "distance of the ends to start and goal [m]", high="held"),
         Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def slave_coordinates(assumed: Assumed) -> Result:
@@ -107,7 +107,7 @@ def slave_coordinates(assumed: Assumed) -> Result:
         Bounded(
             "apart", "joint distance of a joined pair of halves beyond the tolerance", high=0.0
         ),
-        NoOriginal(key="time_scale", label="a common time scale"),
+        NoOriginal("time_scale", "a common time scale"),
     ],
 )
 def both_arms_together(assumed: Assumed) -> Result:

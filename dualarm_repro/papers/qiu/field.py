@@ -44,8 +44,8 @@ _LOST = "the formula"
 @checks(
     "qiu.fig04",
     rules=[
-        Residual(key="balance", high=1e-6, label="sum of the forces against the slope, relative"),
-        NoOriginal(key="drawing", label="the drawing"),
+        Residual("balance", "sum of the forces against the slope, relative", high=1e-6),
+        NoOriginal("drawing", "the drawing"),
     ],
 )
 def principle(assumed: Assumed) -> Result:
@@ -88,9 +88,9 @@ def principle(assumed: Assumed) -> Result:
 @checks(
     "qiu.fig05",
     rules=[
-        Is(key="joints", to="joints", label="joints whose origins are the control points"),
+        Is("joints", "joints whose origins are the control points", to="joints"),
         Is("distinct", "the control points are distinct", value=True),
-        NoOriginal(key="positions", label="where the origins of the joints are"),
+        NoOriginal("positions", "where the origins of the joints are"),
     ],
 )
 def control_points(assumed: Assumed) -> Result:
@@ -124,9 +124,7 @@ def control_points(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq04",
     rules=[
-        Residual(
-            key="difference", high=1e-5, label="resultant against finite differences, relative"
-        ),
+        Residual("difference", "resultant against finite differences, relative", high=1e-5),
     ],
 )
 def resultant(assumed: Assumed) -> Result:
@@ -162,9 +160,9 @@ def resultant(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq05",
     rules=[
-        Residual(key="jump", high=1e-6, label="jump of value or slope at the threshold, relative"),
-        Residual(key="growth_far", high=1e-9, label="beyond the threshold it grows linearly, to"),
-        NoOriginal(key="formula", label=_LOST),
+        Residual("jump", "jump of value or slope at the threshold, relative", high=1e-6),
+        Residual("growth_far", "beyond the threshold it grows linearly, to", high=1e-9),
+        NoOriginal("formula", _LOST),
     ],
 )
 def attractive_potential(assumed: Assumed) -> Result:
@@ -193,9 +191,9 @@ def attractive_potential(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq06",
     rules=[
-        Residual(key="difference", high=1e-6, label="force against finite differences, relative"),
-        Residual(key="beyond_bound", high=1e-12, label="largest force beyond its bound, relative"),
-        NoOriginal(key="formula", label=_LOST),
+        Residual("difference", "force against finite differences, relative", high=1e-6),
+        Residual("beyond_bound", "largest force beyond its bound, relative", high=1e-12),
+        NoOriginal("formula", _LOST),
     ],
 )
 def attractive_force(assumed: Assumed) -> Result:
@@ -225,9 +223,9 @@ def attractive_force(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq07",
     rules=[
-        Residual(key="at_range", high=1e-12, label="value at the end of the range"),
-        Is(key="grows", value=True, label="it grows without bound towards the obstacle"),
-        NoOriginal(key="formula", label=_LOST),
+        Residual("at_range", "value at the end of the range", high=1e-12),
+        Is("grows", "it grows without bound towards the obstacle", value=True),
+        NoOriginal("formula", _LOST),
     ],
 )
 def repulsive_potential(assumed: Assumed) -> Result:
@@ -251,11 +249,9 @@ def repulsive_potential(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq08",
     rules=[
-        Residual(
-            key="direction", high=1e-9, label="printed direction against the slope of the distance"
-        ),
-        Residual(key="slope", high=1e-5, label="force against finite differences of (7), relative"),
-        NoOriginal(key="factor", label="the factor in front of the gradient"),
+        Residual("direction", "printed direction against the slope of the distance", high=1e-9),
+        Residual("slope", "force against finite differences of (7), relative", high=1e-5),
+        NoOriginal("factor", "the factor in front of the gradient"),
     ],
 )
 def repulsive_force(assumed: Assumed) -> Result:
@@ -293,10 +289,8 @@ def repulsive_force(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq09",
     rules=[
-        Residual(
-            key="difference", high=1e-5, label="joint forces against finite differences, relative"
-        ),
-        NoOriginal(key="formula", label=_LOST),
+        Residual("difference", "joint forces against finite differences, relative", high=1e-5),
+        NoOriginal("formula", _LOST),
     ],
 )
 def joint_forces(assumed: Assumed) -> Result:

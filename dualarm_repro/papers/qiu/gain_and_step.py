@@ -31,11 +31,9 @@ _FLIPS = 3
             "steps of a search with variable gain against the printed product [rad]",
             high=1e-9,
         ),
-        Residual(
-            key="outside_band", high=1e-12, label="distance of lambda from one outside its band"
-        ),
+        Residual("outside_band", "distance of lambda from one outside its band", high=1e-12),
         Bounded("at_flip", "lambda where the resultant has flipped", high="weaker"),
-        NoOriginal(key="lambda", label="the formula of lambda"),
+        NoOriginal("lambda", "the formula of lambda"),
     ],
 )
 def variable_gain(assumed: Assumed) -> Result:
@@ -81,7 +79,7 @@ def variable_gain(assumed: Assumed) -> Result:
         Bounded(
             "flange_over_elbow", "gain of step by a far flange over a far elbow", low="heavier"
         ),
-        NoOriginal(key="formula", label=_LOST),
+        NoOriginal("formula", _LOST),
     ],
 )
 def adaptive_step(assumed: Assumed) -> Result:

@@ -36,13 +36,13 @@ _QUERIES = 2000
 @checks(
     "qiu.fig09",
     rules=[
-        Residual(key="circles_outside", high=1e-9, label="circle points outside the hull by [m]"),
+        Residual("circles_outside", "circle points outside the hull by [m]", high=1e-9),
         Bounded(
             "beyond_right_angle",
             "fifth printed angle from a right angle, beyond the printed digits [rad]",
             high=0.0,
         ),
-        NoOriginal(key="radii", label="the radii of the circles"),
+        NoOriginal("radii", "the radii of the circles"),
     ],
 )
 def hull_of_the_posture(assumed: Assumed) -> Result:

@@ -30,10 +30,8 @@ _INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
 @checks(
     "qiu.fig01",
     rules=[
-        Residual(
-            key="flange_error", high=1e-12, label="end of the drawn outline to the arm's flange [m]"
-        ),
-        NoOriginal(key="dimensions", label="the dimensions inside the drawing"),
+        Residual("flange_error", "end of the drawn outline to the arm's flange [m]", high=1e-12),
+        NoOriginal("dimensions", "the dimensions inside the drawing"),
     ],
 )
 def dimensions(assumed: Assumed) -> Result:
@@ -85,11 +83,9 @@ def dimensions(assumed: Assumed) -> Result:
     samples=32,
     rules=[
         Residual(
-            key="convention_difference",
-            high=1e-12,
-            label="both conventions put the flange alike to [m]",
+            "convention_difference", "both conventions put the flange alike to [m]", high=1e-12
         ),
-        NoOriginal(key="frames", label="the link frames of the sketch"),
+        NoOriginal("frames", "the link frames of the sketch"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -119,12 +115,8 @@ def link_frames(assumed: Assumed) -> Result:
     "qiu.tab01",
     samples=32,
     rules=[
-        Residual(
-            key="second_model",
-            high=1e-12,
-            label="largest difference of the two models' flanges [m]",
-        ),
-        NoOriginal(key="rows", label="the rows of the table"),
+        Residual("second_model", "largest difference of the two models' flanges [m]", high=1e-12),
+        NoOriginal("rows", "the rows of the table"),
     ],
 )
 def table_1(assumed: Assumed) -> Result:
@@ -164,9 +156,9 @@ def table_1(assumed: Assumed) -> Result:
     "qiu.eq01",
     samples=32,
     rules=[
-        Is(key="product_is_arm", value=True, label="link transforms multiply to the arm's T(q)"),
-        Is(key="rotations_orthonormal", value=True, label="every link transform is a rigid motion"),
-        NoOriginal(key="formula", label="the link transform"),
+        Is("product_is_arm", "link transforms multiply to the arm's T(q)", value=True),
+        Is("rotations_orthonormal", "every link transform is a rigid motion", value=True),
+        NoOriginal("formula", "the link transform"),
     ],
 )
 def link_transform(assumed: Assumed) -> Result:
@@ -194,9 +186,9 @@ def link_transform(assumed: Assumed) -> Result:
     "qiu.eq02",
     samples=32,
     rules=[
-        Residual(key="pinocchio", high=1e-12, label="largest difference of symbols and Pinocchio"),
-        Residual(key="kernel", high=1e-12, label="largest difference of symbols and batch kernel"),
-        NoOriginal(key="formula", label="the product of transforms"),
+        Residual("pinocchio", "largest difference of symbols and Pinocchio", high=1e-12),
+        Residual("kernel", "largest difference of symbols and batch kernel", high=1e-12),
+        NoOriginal("formula", "the product of transforms"),
     ],
 )
 def end_effector(assumed: Assumed) -> Result:
@@ -223,9 +215,9 @@ def end_effector(assumed: Assumed) -> Result:
     "qiu.eq03",
     rules=[
         Residual(
-            key="miss",
+            "miss",
+            "base that the printed formula gives misses the printed slave base by [m]",
             high=1e-12,
-            label="base that the printed formula gives misses the printed slave base by [m]",
         ),
     ],
 )
@@ -256,11 +248,11 @@ def base_translation(assumed: Assumed) -> Result:
         Rounds(key="base_master", to="base_master", label="base of the master [m]", **_INPUT),
         Rounds(key="base_slave", to="base_slave", label="base of the slave [m]", **_INPUT),
         Is(
-            key="turn_nearest_to_print",
+            "turn_nearest_to_print",
+            "of the quarter turns, this one brings the start tips nearest to print",
             value=True,
-            label="of the quarter turns, this one brings the start tips nearest to print",
         ),
-        NoOriginal(key="drawing", label="the picture"),
+        NoOriginal("drawing", "the picture"),
     ],
 )
 def both_arms(assumed: Assumed) -> Result:
@@ -304,8 +296,8 @@ def both_arms(assumed: Assumed) -> Result:
 @checks(
     "qiu.claim_bases",
     rules=[
-        Adopts(key="master", to="master", label="base of the master [m]"),
-        Adopts(key="slave", to="slave", label="base of the slave [m]"),
+        Adopts("master", "base of the master [m]", to="master"),
+        Adopts("slave", "base of the slave [m]", to="slave"),
     ],
 )
 def bases(assumed: Assumed) -> Result:

@@ -52,7 +52,7 @@ def dual_readings(assumed: Assumed) -> dict[str, DualPlan]:
             "master_ignores_slave", "another task of the slave leaves the master's path", value=True
         ),
         Is("slave_heeds_master", "another task of the master changes the slave's path", value=True),
-        NoOriginal(key="drawing", label="the flow chart"),
+        NoOriginal("drawing", "the flow chart"),
     ],
 )
 def order_of_work(assumed: Assumed) -> Result:
@@ -102,8 +102,8 @@ def _summary(plan: DualPlan) -> dict[str, Any]:
 @checks(
     "qiu.claim_slave_counts",
     rules=[
-        Rounds(key="forward", to="forward", label="searches of the forward half"),
-        Rounds(key="backward", to="backward", label="searches of the backward half"),
+        Rounds("forward", "searches of the forward half", to="forward"),
+        Rounds("backward", "searches of the backward half", to="backward"),
         Is("joined", "the slave's halves meet", value=True),
     ],
 )
@@ -199,7 +199,7 @@ def schedule(assumed: Assumed) -> Result:
     "qiu.claim_no_collision",
     rules=[
         Is("joined", "both arms have a path", value=True),
-        Bounded(key="arms", low=0.0, label="smallest distance of the links of both arms [m]"),
+        Bounded("arms", "smallest distance of the links of both arms [m]", low=0.0),
         Bounded("obstacles", "smallest distance of links and spheres [m]", low=0.0),
     ],
 )

@@ -63,18 +63,18 @@ def _until_rest(plan: SearchPlan) -> int:
 @checks(
     "qiu.claim_trad_stuck",
     rules=[
-        Is(key="trapped", value=True, label="the one-way search is trapped"),
+        Is("trapped", "the one-way search is trapped", value=True),
         Rounds(
-            key="searches",
+            "searches",
+            "searches until it rests",
             to="searches",
-            label="searches until it rests",
             tolerance=5,
             reason="printed as approximate: half of a decade",
         ),
         Rounds(
-            key="tcp",
+            "tcp",
+            "flange where it rests [m]",
             to="tcp",
-            label="flange where it rests [m]",
             tolerance=0.033,
             reason="printed as a neighbourhood: the way of the flange of the straight arm in one "
             "printed step",
@@ -197,7 +197,7 @@ def _gain_runs(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
         Bounded(
             "chatter", "chatter with constant gain, as a share of a full zigzag", low="chatters"
         ),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def height_with_both_gains(assumed: Assumed) -> Result:
@@ -236,7 +236,7 @@ def height_with_both_gains(assumed: Assumed) -> Result:
     "qiu.fig10",
     rules=[
         Bounded("short_of_goal", "joint distance to the goal beyond the tolerance [rad]", low=0.0),
-        NoOriginal(key="path", label="the path"),
+        NoOriginal("path", "the path"),
     ],
 )
 def path_among_spheres(assumed: Assumed) -> Result:
@@ -296,7 +296,7 @@ def _scene(plan: SearchPlan) -> Scene3D:
     "qiu.fig11",
     rules=[
         Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters"),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def coordinates(assumed: Assumed) -> Result:

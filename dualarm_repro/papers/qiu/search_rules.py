@@ -25,9 +25,9 @@ _END_WEIGHTS = (1.0, 1e3, 1e6)
 @checks(
     "qiu.eq11",
     rules=[
-        Residual(key="step_error", high=1e-12, label="length of a step minus alpha [rad]"),
-        Bounded(key="end", high=0.0, label="joint error at the end beyond the tolerance [rad]"),
-        NoOriginal(key="formula", label="the formula"),
+        Residual("step_error", "length of a step minus alpha [rad]", high=1e-12),
+        Bounded("end", "joint error at the end beyond the tolerance [rad]", high=0.0),
+        NoOriginal("formula", "the formula"),
     ],
 )
 def next_configuration(assumed: Assumed) -> Result:
@@ -55,10 +55,8 @@ def nominal_values() -> dict[str, Any]:
 @checks(
     "qiu.eq13",
     rules=[
-        Residual(
-            key="difference", high=1e-9, label="steps of the forward half against the formula [rad]"
-        ),
-        NoOriginal(key="formula", label="the formula"),
+        Residual("difference", "steps of the forward half against the formula [rad]", high=1e-9),
+        NoOriginal("formula", "the formula"),
     ],
 )
 def forward_update(assumed: Assumed) -> Result:
@@ -69,12 +67,8 @@ def forward_update(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq14",
     rules=[
-        Residual(
-            key="difference",
-            high=1e-9,
-            label="steps of the backward half against the formula [rad]",
-        ),
-        NoOriginal(key="formula", label="the formula"),
+        Residual("difference", "steps of the backward half against the formula [rad]", high=1e-9),
+        NoOriginal("formula", "the formula"),
     ],
 )
 def backward_update(assumed: Assumed) -> Result:
@@ -99,14 +93,14 @@ def _update_result(side: int, half: str, other: str) -> Result:
 @checks(
     "qiu.eq15",
     rules=[
-        Bounded(key="beyond", high=0.0, label="gap of the halves beyond the tolerance [rad]"),
-        Bounded(key="earlier", low=0.0, label="smallest earlier gap above the tolerance by [rad]"),
+        Bounded("beyond", "gap of the halves beyond the tolerance [rad]", high=0.0),
+        Bounded("earlier", "smallest earlier gap above the tolerance by [rad]", low=0.0),
         Bounded(
             "room",
             "largest gap of the tips that the tolerance allows, minus the printed gap [m]",
             low=0.0,
         ),
-        NoOriginal(key="tolerance", label="the tolerance"),
+        NoOriginal("tolerance", "the tolerance"),
     ],
 )
 def meeting_test(assumed: Assumed) -> Result:
@@ -142,8 +136,8 @@ def meeting_test(assumed: Assumed) -> Result:
 @checks(
     "qiu.eq16",
     rules=[
-        Residual(key="difference", high=1e-8, label="spline against its normal equations [rad]"),
-        NoOriginal(key="formula", label="the formula"),
+        Residual("difference", "spline against its normal equations [rad]", high=1e-8),
+        NoOriginal("formula", "the formula"),
     ],
 )
 def smoothing_criterion(assumed: Assumed) -> Result:
@@ -168,7 +162,7 @@ def smoothing_criterion(assumed: Assumed) -> Result:
 @checks(
     "qiu.claim_mu_nonneg",
     rules=[
-        Is(key="falling", value=True, label="roughness falls as mu grows"),
+        Is("falling", "roughness falls as mu grows", value=True),
         Is("within_print", "all values declared for mu are as printed", value=True),
     ],
 )

@@ -18,7 +18,7 @@ _SCALE = {"rad": 1.0, "deg": np.pi / 180.0}
 @inputs(
     "qiu.claim_alpha0",
     rules=[
-        Adopts(key="alpha0", to="alpha0", label="first step"),
+        Adopts("alpha0", "first step", to="alpha0"),
         Bounded(
             "steps_missing",
             "steps of the straight joint line beyond those that the printed searches of both ends "
@@ -49,9 +49,7 @@ def first_step(assumed: Assumed) -> Result:
     )
 
 
-@inputs(
-    "qiu.claim_d", samples=32, rules=[Adopts(key="d", to="d", label="threshold of the attraction")]
-)
+@inputs("qiu.claim_d", samples=32, rules=[Adopts("d", "threshold of the attraction", to="d")])
 def threshold(assumed: Assumed) -> Result:
     """The threshold d, and the bound on the attraction it gives."""
     bound = THRESHOLD * ZETA
@@ -61,9 +59,7 @@ def threshold(assumed: Assumed) -> Result:
     )
 
 
-@inputs(
-    "qiu.claim_zeta", samples=32, rules=[Adopts(key="zeta", to="zeta", label="attractive gain")]
-)
+@inputs("qiu.claim_zeta", samples=32, rules=[Adopts("zeta", "attractive gain", to="zeta")])
 def attractive_gain(assumed: Assumed) -> Result:
     """The attractive gain."""
     return Result(
@@ -77,7 +73,7 @@ def attractive_gain(assumed: Assumed) -> Result:
 
 @inputs(
     "qiu.claim_eta0",
-    rules=[Adopts(key="eta0", to="eta0", label="initial repulsive gain")],
+    rules=[Adopts("eta0", "initial repulsive gain", to="eta0")],
     change="another ratio to the attractive gain",
     samples=32,
 )
@@ -90,7 +86,7 @@ def repulsive_gain(assumed: Assumed) -> Result:
     )
 
 
-@inputs("qiu.claim_rho0", rules=[Adopts(key="rho0", to="rho0", label="range of the repulsion [m]")])
+@inputs("qiu.claim_rho0", rules=[Adopts("rho0", "range of the repulsion [m]", to="rho0")])
 def repulsion_range(assumed: Assumed) -> Result:
     """The range of the repulsion."""
     centres = np.linalg.norm(MASTER_GOAL - CENTRES, axis=1) - RADIUS

@@ -49,9 +49,9 @@ _SHOWN = ("gain_ratio", "branch", "control_points", "goal_seed")
 @checks(
     "qiu.tab02",
     rules=[
-        Rounds(key="goals", to="goals", label="goals that both methods are tried on"),
+        Rounds("goals", "goals that both methods are tried on", to="goals"),
         _HIGHER,
-        NoOriginal(key="rates", label="the body of the table"),
+        NoOriginal("rates", "the body of the table"),
     ],
 )
 def table_2(assumed: Assumed) -> Result:

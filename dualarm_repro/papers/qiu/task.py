@@ -47,8 +47,8 @@ _WAYS = {
 @checks(
     "qiu.claim_obstacles",
     rules=[
-        Adopts(key="radius", to="radius", label="radius of the spheres [m]"),
-        Adopts(key="centres", to="centres", label="centres of the spheres [m]"),
+        Adopts("radius", "radius of the spheres [m]", to="radius"),
+        Adopts("centres", "centres of the spheres [m]", to="centres"),
     ],
 )
 def obstacles(assumed: Assumed) -> Result:
@@ -114,7 +114,7 @@ def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
     "qiu.claim_goal",
     samples=32,
     rules=[
-        Adopts(key="tcp", to="tcp", label="flange at the goal that is planned to [m]"),
+        Adopts("tcp", "flange at the goal that is planned to [m]", to="tcp"),
         Bounded("beyond_limits", "goal posture beyond the joint limits [rad]", high=0.0),
     ],
     change="replaced by a goal that the arm reaches, by the way that the caption states",
@@ -226,7 +226,7 @@ def slave_task(assumed: Assumed) -> Result:
 @checks(
     "qiu.claim_goals15",
     rules=[
-        Adopts(key="count", to="count", label="number of different goals"),
+        Adopts("count", "number of different goals", to="count"),
         Bounded(
             "beyond_neighbourhood",
             "farthest goal from the printed one, beyond the nearer sphere [m]",

@@ -67,8 +67,8 @@ def _summary(plan: SearchPlan) -> dict[str, Any]:
 @checks(
     "qiu.claim_bi_counts",
     rules=[
-        Rounds(key="forward", to="forward", label="searches of the forward half"),
-        Rounds(key="backward", to="backward", label="searches of the backward half"),
+        Rounds("forward", "searches of the forward half", to="forward"),
+        Rounds("backward", "searches of the backward half", to="backward"),
         Is("joined", "the two halves meet", value=True),
     ],
 )
@@ -139,7 +139,7 @@ def meeting(assumed: Assumed) -> Result:
     "qiu.fig12",
     rules=[
         Bounded("apart", "joint distance of the halves beyond the tolerance [rad]", high=0.0),
-        NoOriginal(key="path", label="the path"),
+        NoOriginal("path", "the path"),
     ],
 )
 def both_halves(assumed: Assumed) -> Result:
@@ -202,7 +202,7 @@ def _scene(plan: SearchPlan) -> Scene3D:
         Bounded("least_range", "range of the joint shown that moves least [rad]", low="visible"),
         Bounded("junction_ratio", "bend at the junction, smoothed over joined", high="smoother"),
         Bounded("end_shift", "shift of the ends of the path [rad]", high="held"),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def splice(assumed: Assumed) -> Result:
@@ -258,7 +258,7 @@ def _bend(path: np.ndarray, junction: int) -> float:
         Bounded(
             "largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"
         ),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def joint_angles(assumed: Assumed) -> Result:
@@ -292,7 +292,7 @@ def joint_angles(assumed: Assumed) -> Result:
         Bounded("start_error", "distance of the first point to the start [m]", high="held"),
         Bounded("goal_error", "distance of the last point to the goal [m]", high="held"),
         Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
-        NoOriginal(key="curves", label="the curves"),
+        NoOriginal("curves", "the curves"),
     ],
 )
 def tip_coordinates(assumed: Assumed) -> Result:

@@ -47,16 +47,16 @@ _EXACT = {"tolerance": 1e-12, "reason": "parameters of one chain, exact"}
         Rounds(key="alpha", to="alpha", label="column alpha is that of the matrices", **_EXACT),
         Rounds(key="a_one_row_up", to="a", label="column a is theirs, one row too high", **_EXACT),
         Is(
-            key="shift_explains",
+            "shift_explains",
+            "column a under its own header is not that of the matrices, one row down it is",
             value=True,
             role=Role.CONTRADICTS,
-            label="column a under its own header is not that of the matrices, one row down it is",
         ),
         Bounded(
-            key="goal_distance",
+            "goal_distance",
+            "the table read under its own header misses the matrices at the goal by [m]",
             low="last_digit",
             role=Role.CONTRADICTS,
-            label="the table read under its own header misses the matrices at the goal by [m]",
         ),
     ],
 )
@@ -100,17 +100,17 @@ def table_1(assumed: Assumed) -> Result:
 @checks(
     "xue.eq01",
     rules=[
-        Is(key="links_with_alpha", value=6, label="with alpha, (1) gives all six matrices (2)-(7)"),
+        Is("links_with_alpha", "with alpha, (1) gives all six matrices (2)-(7)", value=6),
         Is(
             "is_product",
             "with alpha, (1) is Rx(alpha) Tx(a) Rz(theta) Tz(d) in symbols",
             value=True,
         ),
         Is(
-            key="only_with_alpha",
+            "only_with_alpha",
+            "with the length a inside sine and cosine, as printed, (1) does not",
             value=True,
             role=Role.CONTRADICTS,
-            label="with the length a inside sine and cosine, as printed, (1) does not",
         ),
     ],
 )
@@ -151,19 +151,9 @@ def _register_link(k: int) -> None:
     @checks(
         f"xue.eq{k + 1:02d}",
         rules=[
-            Is(
-                key="equals_eq_1",
-                value=True,
-                label="equals (1), corrected, for this link's parameters",
-            ),
-            Is(
-                key="equals_dh",
-                value=True,
-                label="equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm",
-            ),
-            Residual(
-                key="pinocchio", high=1e-12, label="largest difference to Pinocchio's placement"
-            ),
+            Is("equals_eq_1", "equals (1), corrected, for this link's parameters", value=True),
+            Is("equals_dh", "equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm", value=True),
+            Residual("pinocchio", "largest difference to Pinocchio's placement", high=1e-12),
         ],
     )
     def link_transform(assumed: Assumed) -> Result:
@@ -189,22 +179,16 @@ for _k in LINKS:
 @checks(
     "xue.eq08",
     rules=[
-        Is(
-            key="product_is_dh",
-            value=True,
-            label="product of the printed matrices is the arm's T(q)",
-        ),
+        Is("product_is_dh", "product of the printed matrices is the arm's T(q)", value=True),
         Is(
             "names", "the printed matrix names twelve entries over the last row of T(q)", value=True
         ),
         Residual(
-            key="formula",
-            high=1e-12,
-            label="(8) as printed, with matrices (2)-(7) put in, to Pinocchio",
+            "formula", "(8) as printed, with matrices (2)-(7) put in, to Pinocchio", high=1e-12
         ),
-        Residual(key="pinocchio", high=1e-12, label="largest difference to Pinocchio"),
-        Residual(key="kernel", high=1e-12, label="largest difference to the batch kernel"),
-        Residual(key="orthonormal", high=1e-12, label="n, o, a are orthonormal to"),
+        Residual("pinocchio", "largest difference to Pinocchio", high=1e-12),
+        Residual("kernel", "largest difference to the batch kernel", high=1e-12),
+        Residual("orthonormal", "n, o, a are orthonormal to", high=1e-12),
     ],
 )
 def end_effector_pose(assumed: Assumed) -> Result:

@@ -26,11 +26,11 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
     "xue.fig01",
     rules=[
         Residual(
-            key="shared_difference",
+            "shared_difference",
+            "a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
             high=1e-12,
-            label="a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
         ),
-        NoOriginal(key="dimensions", label="the dimensions inside the drawing"),
+        NoOriginal("dimensions", "the dimensions inside the drawing"),
     ],
 )
 def dimensions(assumed: Assumed) -> Result:
@@ -62,15 +62,9 @@ def dimensions(assumed: Assumed) -> Result:
 @checks(
     "xue.fig02",
     rules=[
-        Residual(
-            key="axis_error",
-            high=1e-12,
-            label="each z axis is the axis its joint turns about, to",
-        ),
-        Residual(
-            key="frame_error", high=1e-12, label="each frame is the product of printed matrices, to"
-        ),
-        NoOriginal(key="drawing", label="the drawing of the frames"),
+        Residual("axis_error", "each z axis is the axis its joint turns about, to", high=1e-12),
+        Residual("frame_error", "each frame is the product of printed matrices, to", high=1e-12),
+        NoOriginal("drawing", "the drawing of the frames"),
     ],
 )
 def link_frames(assumed: Assumed) -> Result:
@@ -105,12 +99,8 @@ def link_frames(assumed: Assumed) -> Result:
     "xue.fig03",
     samples=32,
     rules=[
-        Residual(
-            key="mirror_error",
-            high=1e-12,
-            label="the slave is the reflection of the master, to [m]",
-        ),
-        NoOriginal(key="bases", label="the base poses"),
+        Residual("mirror_error", "the slave is the reflection of the master, to [m]", high=1e-12),
+        NoOriginal("bases", "the base poses"),
     ],
 )
 def both_arms(assumed: Assumed) -> Result:

@@ -54,22 +54,14 @@ _ROUND = 1.0 + 1e-6
 @checks(
     "xue.fig07",
     rules=[
+        Is("master_first", "the slave's planner meets the finished master path", value=True),
         Is(
-            key="master_first",
+            "only_when_still",
+            "an arm turns to the virtual point only where it stands still",
             value=True,
-            label="the slave's planner meets the finished master path",
         ),
-        Is(
-            key="only_when_still",
-            value=True,
-            label="an arm turns to the virtual point only where it stands still",
-        ),
-        Is(
-            key="arrives_without",
-            value=True,
-            label="no run arrives while the virtual point acts",
-        ),
-        NoOriginal(key="chart", label="the content of the chart"),
+        Is("arrives_without", "no run arrives while the virtual point acts", value=True),
+        NoOriginal("chart", "the content of the chart"),
     ],
 )
 def flow_chart(assumed: Assumed) -> Result:

@@ -37,10 +37,10 @@ checks = partial(REGISTRY.checks, page="xue/scene")
 @checks(
     "xue.fig04",
     rules=[
-        Rounds(key="start", to="start", label="Start in the figure, in the frame of the document"),
-        Rounds(key="end", to="end", label="End in the figure, in the frame of the document"),
-        Residual(key="off_centre", high=1e-12, label="virtual point to the middle of the bars [m]"),
-        NoOriginal(key="window", label="size, place and direction of the window"),
+        Rounds("start", "Start in the figure, in the frame of the document", to="start"),
+        Rounds("end", "End in the figure, in the frame of the document", to="end"),
+        Residual("off_centre", "virtual point to the middle of the bars [m]", high=1e-12),
+        NoOriginal("window", "size, place and direction of the window"),
     ],
 )
 def window(assumed: Assumed) -> Result:
@@ -85,12 +85,10 @@ def window(assumed: Assumed) -> Result:
 
 @checks(
     "xue.claim_gains",
-    rules=[
-        Adopts(key=name, to=name, label=f"{name} of the planner") for name in ("k_a", "k_w", "k_r")
-    ]
+    rules=[Adopts(name, f"{name} of the planner", to=name) for name in ("k_a", "k_w", "k_r")]
     + [
-        Adopts(key="d_0", to="d_0", label="d_0 of the planner"),
-        Is(key="both", value=True, role=Role.ADOPTS, label="the traditional method has the same"),
+        Adopts("d_0", "d_0 of the planner", to="d_0"),
+        Is("both", "the traditional method has the same", value=True, role=Role.ADOPTS),
     ],
 )
 def gains(assumed: Assumed) -> Result:
@@ -122,9 +120,7 @@ def gains(assumed: Assumed) -> Result:
 
 
 def _register_slave_point(item: str, field: str, name: str) -> None:
-    @checks(
-        item, samples=32, rules=[Adopts(key="position", to="position", label=f"{name} used [m]")]
-    )
+    @checks(item, samples=32, rules=[Adopts("position", f"{name} used [m]", to="position")])
     def slave_point(assumed: Assumed) -> Result:
         unit, layout = assumed["length_unit"], Layout.of(assumed)
         slave = placed_slave(layout)
@@ -154,10 +150,10 @@ _register_slave_point("xue.claim_slave_end", "goal", "End")
     "xue.claim_equal_speed",
     rules=[
         Bounded(
-            key="difference",
+            "difference",
+            "speeds of master and slave in the sense assumed, relative difference",
             high=1e-4,
             role=Role.ADOPTS,
-            label="speeds of master and slave in the sense assumed, relative difference",
         )
     ],
 )

@@ -30,20 +30,18 @@ _ENDS = {
 @checks(
     "xue.claim_no_ik",
     rules=[
+        Is("calls.master", "calls in the run of the master from what is printed", value=0),
         Is(
-            key="calls.master", value=0, label="calls in the run of the master from what is printed"
-        ),
-        Is(
-            key="needs_goal_angles",
+            "needs_goal_angles",
+            "(13), as printed, needs the goal angles",
             value=True,
             role=Role.CONTRADICTS,
-            label="(13), as printed, needs the goal angles",
         ),
         Bounded(
-            key="calls.slave",
+            "calls.slave",
+            "calls in the run of the slave from what is printed",
             low=1,
             role=Role.CONTRADICTS,
-            label="calls in the run of the slave from what is printed",
         ),
     ],
 )

@@ -29,9 +29,9 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
     "xue.claim_only_tcp",
     rules=[
         Is(
-            key="links_collide",
+            "links_collide",
+            "the end effectors stay apart, and other links of the two arms touch",
             value=False,
-            label="the end effectors stay apart, and other links of the two arms touch",
         ),
     ],
     samples=32,
@@ -107,10 +107,10 @@ def arms_witnesses(radius: float) -> list[dict[str, Any]]:
     "xue.claim_joints_as_points",
     rules=[
         Bounded(
-            key="size",
+            "size",
+            "largest radius or length of what attracts, repels and is repelled [m]",
             high=0,
             role=Role.ADOPTS,
-            label="largest radius or length of what attracts, repels and is repelled [m]",
         )
     ],
     samples=8,

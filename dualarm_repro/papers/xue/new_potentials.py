@@ -39,16 +39,16 @@ _UNIT = 2.0
         VALUE(),
         GRADIENT(),
         Is(
-            key="one_dimension",
+            "one_dimension",
+            "both printed terms scale alike with the unit of length",
             value=False,
             role=Role.CONTRADICTS,
-            label="both printed terms scale alike with the unit of length",
         ),
         Residual(
-            key="value_at_weight_one",
+            "value_at_weight_one",
+            "difference of print to the sum that is run with weight 1",
             high=1e-9,
             role=Role.CONTRADICTS,
-            label="difference of print to the sum that is run with weight 1",
         ),
     ],
 )
@@ -142,7 +142,7 @@ def point_repulsion(assumed: Assumed) -> Result:
 @checks(
     "xue.eq15",
     rules=[
-        Is(key="as_many", value=True, label="as many points as print sums over, in every reading"),
+        Is("as_many", "as many points as print sums over, in every reading", value=True),
         VALUE(),
     ],
 )
@@ -200,11 +200,11 @@ def total_potential(assumed: Assumed) -> Result:
         VALUE(),
         GRADIENT(),
         Residual(
-            key="rest_slope",
+            "rest_slope",
+            "slope of both attractions, as printed, at (k_a X_g + k_av X_v)/(k_a + k_av)",
             high=1e-6,
-            label="slope of both attractions, as printed, at (k_a X_g + k_av X_v)/(k_a + k_av)",
         ),
-        Is(key="arrives", value=True, label="the master arrives in spite of the virtual point"),
+        Is("arrives", "the master arrives in spite of the virtual point", value=True),
     ],
 )
 def virtual_attraction(assumed: Assumed) -> Result:

@@ -24,9 +24,9 @@ _REPEATS = 3
     "xue.claim_times",
     rules=[
         Bounded(
-            key="step_ratio",
+            "step_ratio",
+            "steps of the method with the longer printed time over those of the other",
             low=1,
-            label="steps of the method with the longer printed time over those of the other",
         ),
     ],
     samples=32,

@@ -37,9 +37,9 @@ def traditional_attraction(assumed: Assumed) -> Result:
         VALUE(),
         GRADIENT(),
         Bounded(
-            key="at_range",
+            "at_range",
+            "potential, and slope from within, of print at d_0 and just beyond it",
             high=1e-4,
-            label="potential, and slope from within, of print at d_0 and just beyond it",
         ),
     ],
 )
@@ -73,23 +73,18 @@ def _printed_energy(d: float) -> float:
     "xue.eq11",
     rules=[
         Is(
-            key="vector_form",
+            "vector_form",
+            "without the modulus the last side is -grad of (9) as printed",
             value=True,
-            label="without the modulus the last side is -grad of (9) as printed",
         ),
         GRADIENT(),
         Is(
-            key="explained",
+            "explained",
+            "it is the modulus alone that makes the last side differ",
             value=True,
             role=Role.CONTRADICTS,
-            label="it is the modulus alone that makes the last side differ",
         ),
-        Is(
-            key="printed_form",
-            value=False,
-            role=Role.CONTRADICTS,
-            label="both printed sides are equal",
-        ),
+        Is("printed_form", "both printed sides are equal", value=False, role=Role.CONTRADICTS),
     ],
 )
 def attractive_force(assumed: Assumed) -> Result:
@@ -152,10 +147,8 @@ def _close(left: np.ndarray, right: np.ndarray) -> bool:
 @checks(
     "xue.eq12",
     rules=[
-        Residual(
-            key="sides", high=1e-6, label="the force as printed against -grad of (10), at most"
-        ),
-        Residual(key="force", high=1e-6, label="and against the joint forces of the field run"),
+        Residual("sides", "the force as printed against -grad of (10), at most", high=1e-6),
+        Residual("force", "and against the joint forces of the field run", high=1e-6),
         GRADIENT(),
     ],
 )

@@ -24,20 +24,18 @@ checks = partial(REGISTRY.checks, page="xue/table2")
 @checks(
     "xue.claim_stop_zero",
     rules=[
-        Residual(
-            key="at_goal", high=1e-9, label="potential at a goal out of every obstacle's range"
-        ),
+        Residual("at_goal", "potential at a goal out of every obstacle's range", high=1e-9),
         Bounded(
-            key="printed_traps",
+            "printed_traps",
+            "runs that stand still in a local minimum, by the document itself",
             low=1,
             role=Role.CONTRADICTS,
-            label="runs that stand still in a local minimum, by the document itself",
         ),
         Bounded(
-            key="off_goal",
+            "off_goal",
+            "attraction, by (9) as printed, as near to the goal as no trap is",
             low=1e-9,
             role=Role.CONTRADICTS,
-            label="attraction, by (9) as printed, as near to the goal as no trap is",
         ),
     ],
 )

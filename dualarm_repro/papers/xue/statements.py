@@ -32,14 +32,8 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
 @checks(
     "xue.claim_spherical_wrist",
     rules=[
-        Is(
-            key="origins_coincide",
-            value=True,
-            label="frames 4, 5 and 6 less d_6 share their origin",
-        ),
-        Residual(
-            key="spread", high=1e-12, label="largest distance of the three axes' common point [m]"
-        ),
+        Is("origins_coincide", "frames 4, 5 and 6 less d_6 share their origin", value=True),
+        Residual("spread", "largest distance of the three axes' common point [m]", high=1e-12),
     ],
 )
 def spherical_wrist(assumed: Assumed) -> Result:
@@ -64,8 +58,8 @@ def spherical_wrist(assumed: Assumed) -> Result:
 @checks(
     "xue.claim_mirror",
     rules=[
-        Is(key="symbolic", value=True, label="negated alpha and theta give M T(q) M in symbols"),
-        Residual(key="pinocchio", high=1e-12, label="largest difference of the two models"),
+        Is("symbolic", "negated alpha and theta give M T(q) M in symbols", value=True),
+        Residual("pinocchio", "largest difference of the two models", high=1e-12),
     ],
 )
 def mirror(assumed: Assumed) -> Result:
@@ -89,7 +83,7 @@ def mirror(assumed: Assumed) -> Result:
 
 @checks(
     "xue.claim_master_start",
-    rules=[Adopts(key="q", to="q", label="start angles used [rad]")],
+    rules=[Adopts("q", "start angles used [rad]", to="q")],
 )
 def master_start(assumed: Assumed) -> Result:
     """Start of the master, and how far it is outside the range of the real axis L."""
@@ -109,7 +103,7 @@ def master_start(assumed: Assumed) -> Result:
 
 @checks(
     "xue.claim_master_goal",
-    rules=[Adopts(key="q", to="q", label="goal angles used [rad]")],
+    rules=[Adopts("q", "goal angles used [rad]", to="q")],
 )
 def master_goal(assumed: Assumed) -> Result:
     """Goal of the master; unlike the start it tells Table 1 from the matrices."""

@@ -35,7 +35,7 @@ _MEASURES = {
 
 @checks(
     "xue.claim_better",
-    rules=[Exceeds(key=name, label=f"{name}: {words}") for name, words in _MEASURES.items()],
+    rules=[Exceeds(name, f"{name}: {words}") for name, words in _MEASURES.items()],
 )
 def superior(assumed: Assumed) -> Result:
     """Mean paired differences of the two methods over random arrangements."""

@@ -68,29 +68,29 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
     "xue.tab02",
     rules=[
         Rounds(
-            key="held.traditional",
+            "held.traditional",
+            "traditional runs of 10 held in a trap, against the entry of the other row",
             to="improved.trapped",
-            label="traditional runs of 10 held in a trap, against the entry of the other row",
         ),
         Rounds(
-            key="held.improved",
+            "held.improved",
+            "improved runs of 10 held in a trap, against the entry of the other row",
             to="traditional.trapped",
-            label="improved runs of 10 held in a trap, against the entry of the other row",
         ),
         Rounds(
-            key="missed.traditional",
+            "missed.traditional",
+            "traditional runs of 10 that do not arrive, against the same",
             to="improved.trapped",
-            label="traditional runs of 10 that do not arrive, against the same",
         ),
         Exceeds(
-            key="text_less_table",
-            label="share of random arrangements with the text's outcome less that with the table's",
+            "text_less_table",
+            "share of random arrangements with the text's outcome less that with the table's",
         ),
         Is(
-            key="rows_agree_with_text",
+            "rows_agree_with_text",
+            "the rows of the table say what the text says",
             value=False,
             role=Role.CONTRADICTS,
-            label="the rows of the table say what the text says",
         ),
     ],
     samples=32,
@@ -136,8 +136,8 @@ def both_methods(assumed: Assumed) -> Result:
 @checks(
     "xue.claim_success_10",
     rules=[
-        Is(key="trials", to="trials", label="number of runs"),
-        Is(key="successes", to="successes", label="improved runs that arrive"),
+        Is("trials", "number of runs", to="trials"),
+        Is("successes", "improved runs that arrive", to="successes"),
     ],
     samples=32,
 )
@@ -172,14 +172,14 @@ def improved_succeeds(assumed: Assumed) -> Result:
 @checks(
     "xue.claim_trapped_8",
     rules=[
-        Is(key="trials", to="trials", label="number of runs"),
+        Is("trials", "number of runs", to="trials"),
         Rounds(
-            key="held.traditional",
+            "held.traditional",
+            "traditional runs that stand still and stay after small pushes",
             to="trapped",
-            label="traditional runs that stand still and stay after small pushes",
         ),
-        Rounds(key="missed.traditional", to="trapped", label="traditional runs that do not arrive"),
-        Bounded(key="unproved", high=0, label="runs called trapped whose gradient does not vanish"),
+        Rounds("missed.traditional", "traditional runs that do not arrive", to="trapped"),
+        Bounded("unproved", "runs called trapped whose gradient does not vanish", high=0),
     ],
     samples=32,
 )

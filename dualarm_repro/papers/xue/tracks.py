@@ -42,27 +42,25 @@ _NEAR = 1.4  # of the tracks in space, around the window [m]
 _VIEW = {"elev": 24, "azim": -70}
 
 _MASTER_RULES = (
-    Is(key="reached", value=True, label="the master arrives at the printed goal"),
-    Bounded(key="distance", low=1e-6, label="smallest distance of its control points to a bar [m]"),
-    Is(key="needed", value=True, label="without repulsion it would come within d_0 of a bar"),
+    Is("reached", "the master arrives at the printed goal", value=True),
+    Bounded("distance", "smallest distance of its control points to a bar [m]", low=1e-6),
+    Is("needed", "without repulsion it would come within d_0 of a bar", value=True),
 )
 _COLLIDING_RULES = (
-    Bounded(key="flange_window", high=0, label="distance of the undisturbed slave to a bar [m]"),
+    Bounded("flange_window", "distance of the undisturbed slave to a bar [m]", high=0),
     Bounded(
-        key="beyond_meeting",
+        "beyond_meeting",
+        "its distance to the master at one instant, less that of a meeting [m]",
         high=0,
-        label="its distance to the master at one instant, less that of a meeting [m]",
     ),
 )
 _AVOIDING_RULES = (
-    Is(key="reached", value=True, label="the slave arrives at End"),
+    Is("reached", "the slave arrives at End", value=True),
+    Bounded("flange_window", "smallest distance of its end effector to a bar [m]", low=1e-6),
     Bounded(
-        key="flange_window", low=1e-6, label="smallest distance of its end effector to a bar [m]"
-    ),
-    Bounded(
-        key="beyond_meeting",
+        "beyond_meeting",
+        "distance of the end effectors until both rest, less that of a meeting [m]",
         low=1e-6,
-        label="distance of the end effectors until both rest, less that of a meeting [m]",
     ),
 )
 
@@ -215,9 +213,7 @@ def avoiding_in_space(assumed: Assumed) -> Result:
     "xue.claim_slave_ok",
     rules=[
         *_AVOIDING_RULES,
-        Bounded(
-            key="points", low=1e-6, label="smallest distance of its control points to anything [m]"
-        ),
+        Bounded("points", "smallest distance of its control points to anything [m]", low=1e-6),
     ],
 )
 def slave_avoids(assumed: Assumed) -> Result:

@@ -82,13 +82,13 @@ def _slave(master: Arm) -> Arm:
     "xue.fig05",
     samples=32,
     rules=[
-        Is(key="points", to="points", label="number of random points"),
+        Is("points", "number of random points", to="points"),
         Bounded(
-            key="beyond_reach",
+            "beyond_reach",
+            "points farther than the arm of matrices (2)-(7) reaches without joint limits",
             high=0,
-            label="points farther than the arm of matrices (2)-(7) reaches without joint limits",
         ),
-        NoOriginal(key="extents", label="the joint ranges or the extents of the cloud"),
+        NoOriginal("extents", "the joint ranges or the extents of the cloud"),
     ],
 )
 def master_cloud(assumed: Assumed) -> Result:
@@ -140,9 +140,7 @@ def master_cloud(assumed: Assumed) -> Result:
     )
 
 
-@checks(
-    "xue.claim_mc_points", rules=[Adopts(key="points", to="points", label="random points used")]
-)
+@checks("xue.claim_mc_points", rules=[Adopts("points", "random points used", to="points")])
 def monte_carlo_points(assumed: Assumed) -> Result:
     """The cloud of Fig. 5 has the printed number of points."""
     points = len(cloud(arm_in_use(), WORKSPACE_POINTS))
@@ -155,10 +153,8 @@ def monte_carlo_points(assumed: Assumed) -> Result:
 @checks(
     "xue.fig06",
     rules=[
-        Bounded(
-            key="share_low", low="resolved", label="lower 95 % bound of the share inside the other"
-        ),
-        Bounded(key="share_high", high="not_whole", label="upper 95 % bound of that share"),
+        Bounded("share_low", "lower 95 % bound of the share inside the other", low="resolved"),
+        Bounded("share_high", "upper 95 % bound of that share", high="not_whole"),
     ],
     samples=32,
 )
@@ -219,10 +215,8 @@ def both_clouds(assumed: Assumed) -> Result:
 @checks(
     "xue.claim_overlap",
     rules=[
-        Bounded(key="share_low", low="resolved", label="lower 95 % bound of the smaller share"),
-        Bounded(
-            key="share_high", high="not_whole", label="no workspace lies wholly inside the other"
-        ),
+        Bounded("share_low", "lower 95 % bound of the smaller share", low="resolved"),
+        Bounded("share_high", "no workspace lies wholly inside the other", high="not_whole"),
     ],
     samples=64,
 )
