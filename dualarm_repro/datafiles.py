@@ -1,16 +1,26 @@
-"""Where the data files are, in a clone or inside an installed wheel, and how YAML is read."""
+"""Where the data files are, in a clone or inside an installed wheel, and how YAML is read and
+checked."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import yaml
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
 from .errors import DataFileError
 from .tracking import note
+
+#: Text that says something.
+Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
+
+
+class StrictModel(BaseModel):
+    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 @cache

@@ -12,22 +12,18 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     PlainSerializer,
-    StringConstraints,
     TypeAdapter,
     ValidationError,
     model_validator,
 )
 
-from ..datafiles import from_validation, read_yaml
+from ..datafiles import StrictModel, Text, from_validation, read_yaml
 from ..errors import DataFileError
 from .angle import EXPECTED, Angle
 
-Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
 Length = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 ExactAngle = Annotated[
     Any,
@@ -40,13 +36,7 @@ Evidence = Literal["printed", "public", "inferred", "assumed", "stand-in"]
 COLUMNS = ("alpha", "a", "d", "offset", "lower", "upper", "velocity")
 
 
-class _Model(BaseModel):
-    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Origin(_Model):
+class Origin(StrictModel):
     """Where a number comes from."""
 
     source: Text = Field(description="key of sources")
@@ -60,7 +50,7 @@ class ColumnOrigin(Origin):
     joints: dict[int, Origin] = Field(default={}, description="joint, from 1: its own origin")
 
 
-class Joint(_Model):
+class Joint(StrictModel):
     """One row of a DH table and the limits of its joint."""
 
     name: Text
@@ -81,7 +71,7 @@ class Joint(_Model):
         return self
 
 
-class Flange(_Model):
+class Flange(StrictModel):
     """Fixed transform from the last DH frame to the flange, R = Rz(yaw) Ry(pitch) Rx(roll)."""
 
     translation: Point
@@ -99,12 +89,12 @@ class Capsule(Origin):
     radius: float = Field(strict=True, gt=0, allow_inf_nan=False)
 
 
-class _Robot(_Model):
+class _Robot(StrictModel):
     """What every robot file says."""
 
     title: Text
     evidence: Text = Field(description="summary of how firmly the data are known")
-    notes: list[Text] = []
+    notes: list[Text] = Field(default_factory=list)
     sources: dict[Text, Text] = Field(min_length=1, description="key: bibliographic text")
 
     def _check_sources(self, origins: list[Origin | Flange]) -> None:
@@ -121,7 +111,7 @@ class DHRobot(_Robot):
     joints: list[Joint] = Field(min_length=1)
     flange: Flange | None = None
     provenance: dict[Literal[COLUMNS], ColumnOrigin]
-    capsules: list[Capsule] = []
+    capsules: list[Capsule] = Field(default_factory=list)
 
     @model_validator(mode="after")
     def _complete(self) -> DHRobot:

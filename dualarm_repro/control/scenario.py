@@ -5,20 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError
+from pydantic import Field, ValidationError
 
-from ..datafiles import from_validation, read_yaml
+from ..datafiles import StrictModel, Text, from_validation, read_yaml
 
-Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Triple = tuple[Number, Number, Number]
 
 
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class ArmTask(_Model):
+class ArmTask(StrictModel):
     """Start of one arm and the plane and phase of its circle."""
 
     q: list[Number] = Field(min_length=1, description="start [rad]")
@@ -26,14 +21,14 @@ class ArmTask(_Model):
     angle: Number = Field(description="of the start on the circle, within its plane [rad]")
 
 
-class Found(_Model):
+class Found(StrictModel):
     """How the scenario was found."""
 
     seed: list[int]
     criteria: Text
 
 
-class Scenario(_Model):
+class Scenario(StrictModel):
     """Two arms of one model, bases apart along y and looking along x, each tip on a circle."""
 
     kind: Literal["velocity-control"]

@@ -1,6 +1,7 @@
 """The ledger of printed items and their verdicts. It knows no robot: usable for any paper."""
 
 from .evaluation import Evaluation, evaluate, prove
+from .meaning import MEANING
 from .record import record
 from .registry import REGISTRY, Registry
 from .result import Assumed, Proof, Result
@@ -18,7 +19,7 @@ from .settled import Settled, settle
 from .shares import Share
 from .statistical_rules import Exceeds, Generally
 from .study import Study
-from .verdict import MEANING, Verdict
+from .verdict import Verdict
 
 __all__ = [
     "MEANING",

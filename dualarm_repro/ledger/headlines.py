@@ -14,15 +14,15 @@ from typing import Annotated, Any
 
 from pydantic import Field, ValidationError
 
-from ..datafiles import data_path, from_validation, read_yaml
+from ..datafiles import StrictModel, Text, data_path, from_validation, read_yaml
 from ..errors import DataFileError
 from .reference import read_reference
-from .schema import Model, Text, load_paper
+from .schema import load_paper
 
 _FILE = "headlines.yaml"
 
 
-class Headline(Model):
+class Headline(StrictModel):
     """One number of the book."""
 
     text: Text = Field(description="what the number says")
@@ -32,7 +32,7 @@ class Headline(Model):
     printed: bool = Field(default=False, description="the digits are those the document prints")
 
 
-class HeadlineFile(Model):
+class HeadlineFile(StrictModel):
     """Content of ``data/headlines.yaml``."""
 
     headlines: list[Headline] = Field(min_length=1)

@@ -8,18 +8,15 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     StringConstraints,
     ValidationError,
     model_validator,
 )
 
-from ..datafiles import from_validation, read_yaml
+from ..datafiles import StrictModel, Text, from_validation, read_yaml
 
-Text = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1)]
 Key = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$")]
 
 
@@ -37,12 +34,6 @@ def _strings_only(value: Any) -> Any:
 Printed = Annotated[Any, BeforeValidator(_strings_only)]
 
 
-class Model(BaseModel):
-    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
 class Kind(StrEnum):
     """What sort of thing an item is in print."""
 
@@ -52,7 +43,7 @@ class Kind(StrEnum):
     CLAIM = "claim"
 
 
-class Document(Model):
+class Document(StrictModel):
     """Bibliographic record; what the source does not print is listed in ``unknown``."""
 
     id: Key
@@ -78,7 +69,7 @@ class Document(Model):
         return self
 
 
-class Assumption(Model):
+class Assumption(StrictModel):
     """A value the document does not print and the reproduction had to choose."""
 
     statement: Text
@@ -130,7 +121,7 @@ class Assumption(Model):
         return self
 
 
-class Erratum(Model):
+class Erratum(StrictModel):
     """Something in print that is wrong, ambiguous or contradicts another place."""
 
     place: Text
@@ -142,21 +133,21 @@ class Erratum(Model):
     )
 
 
-class Threshold(Model):
+class Threshold(StrictModel):
     """A number that a rule compares with, and why it is that number."""
 
     value: float
     reason: Text
 
 
-class Search(Model):
+class Search(StrictModel):
     """A directed search for a choice of the assumptions under which print is met."""
 
     starts: int = Field(default=8, gt=0, description="independent climbs")
     evaluations: int = Field(default=40, gt=0, description="evaluations of each climb")
 
 
-class Tolerance(Model):
+class Tolerance(StrictModel):
     """How far an ill-conditioned value may move from one processor to another, and why."""
 
     relative: float | None = Field(default=None, gt=0, le=0.1)
@@ -170,7 +161,7 @@ class Tolerance(Model):
         return self
 
 
-class Item(Model):
+class Item(StrictModel):
     """One printed figure, table, equation or claim."""
 
     kind: Kind
@@ -218,12 +209,12 @@ class Item(Model):
     )
 
 
-class PaperFile(Model):
+class PaperFile(StrictModel):
     """Content of one file in ``data/papers``."""
 
     document: Document
-    assumptions: dict[Key, Assumption] = {}
-    errata: dict[Key, Erratum] = {}
+    assumptions: dict[Key, Assumption] = Field(default_factory=dict)
+    errata: dict[Key, Erratum] = Field(default_factory=dict)
     items: dict[Key, Item]
 
     @model_validator(mode="after")

@@ -12,9 +12,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 import pinocchio as pin
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     StringConstraints,
     ValidationError,
@@ -22,7 +20,7 @@ from pydantic import (
 
 from ..arms import load_arm
 from ..arms.angle import EXPECTED, Angle
-from ..datafiles import from_validation, read_yaml
+from ..datafiles import StrictModel, from_validation, read_yaml
 from ..errors import DataFileError, InputError
 from .bodies import PlacedArm
 from .hull import ConvexHull
@@ -44,13 +42,7 @@ Rpy = tuple[Radians, Radians, Radians]
 _UPRIGHT = (0.0, 0.0, 0.0)
 
 
-class _Model(BaseModel):
-    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class SphereEntry(_Model):
+class SphereEntry(StrictModel):
     """A ball."""
 
     kind: Literal["sphere"]
@@ -62,7 +54,7 @@ class SphereEntry(_Model):
         return Sphere(self.center, self.radius)
 
 
-class CapsuleEntry(_Model):
+class CapsuleEntry(StrictModel):
     """Everything within a radius of a segment."""
 
     kind: Literal["capsule"]
@@ -75,7 +67,7 @@ class CapsuleEntry(_Model):
         return Capsule(self.start, self.end, self.radius)
 
 
-class BoxEntry(_Model):
+class BoxEntry(StrictModel):
     """A box with full edge lengths."""
 
     kind: Literal["box"]
@@ -88,7 +80,7 @@ class BoxEntry(_Model):
         return Box(self.center, self.size, pin.rpy.rpyToMatrix(*self.rpy))
 
 
-class HalfSpaceEntry(_Model):
+class HalfSpaceEntry(StrictModel):
     """Everything below a plane, e.g. a wall."""
 
     kind: Literal["halfspace"]
@@ -100,7 +92,7 @@ class HalfSpaceEntry(_Model):
         return HalfSpace(self.normal, self.offset)
 
 
-class WindowEntry(_Model):
+class WindowEntry(StrictModel):
     """Four bars around an opening: top, bottom, left, right."""
 
     kind: Literal["window"]
@@ -118,7 +110,7 @@ class WindowEntry(_Model):
         return window_frame(self.center, facing(self.normal, self.up), *sizes)
 
 
-class HullEntry(_Model):
+class HullEntry(StrictModel):
     """Convex hull of points."""
 
     kind: Literal["hull"]
@@ -129,7 +121,7 @@ class HullEntry(_Model):
         return ConvexHull(self.points)
 
 
-class ArmEntry(_Model):
+class ArmEntry(StrictModel):
     """An arm on its base."""
 
     robot: str = Field(
@@ -151,11 +143,11 @@ Obstacle = Annotated[
 ]
 
 
-class SceneFile(_Model):
+class SceneFile(StrictModel):
     """Content of a scene file."""
 
     arms: dict[Name, ArmEntry] = Field(min_length=1)
-    obstacles: dict[Name, Obstacle] = {}
+    obstacles: dict[Name, Obstacle] = Field(default_factory=dict)
     floor: Number | None = Field(default=None, description="height of a floor")
     exempt: list[tuple[BodyName, BodyName]] = Field(
         default=[], description="pairs of bodies or owners that may touch"

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from ..ledger.verdict import MEANING, Verdict
+from ..ledger.meaning import MEANING
+from ..ledger.verdict import Verdict
 
 #: Sign shown before the word, so that the badge can be told without colour.
 SIGN = {

@@ -7,7 +7,7 @@ from html import escape
 from io import BytesIO
 from typing import Any
 
-from ..ledger.verdict import MEANING
+from ..ledger.meaning import MEANING
 from .badge import badge, interval, percent
 from .firmness import firmness_svg
 from .style import BLACK, house_style

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...differences import central_differences
 from .problem import Problem
 
 # Displacement [rad] of the central differences; balances their two errors for smooth gradients.
@@ -56,8 +57,5 @@ def certify(made: Problem, q: np.ndarray, step: int) -> Certificate:
 
 def hessian(made: Problem, q: np.ndarray, step: int) -> np.ndarray:
     """d^2 (U_att + U_rep) / dq^2 by central differences of the gradient, symmetrised (nq, nq)."""
-    shifts = _DIFFERENCE * np.eye(len(q))
-    gradient = made.field.gradient
-    columns = [gradient(q + shift, step) - gradient(q - shift, step) for shift in shifts]
-    matrix = np.array(columns) / (2.0 * _DIFFERENCE)
+    matrix = central_differences(lambda at: made.field.gradient(at, step), q, _DIFFERENCE)
     return 0.5 * (matrix + matrix.T)

@@ -19,8 +19,6 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import (
-    BaseModel,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -28,7 +26,7 @@ from pydantic import (
     model_validator,
 )
 
-from ...datafiles import from_validation, read_yaml
+from ...datafiles import StrictModel, from_validation, read_yaml
 from ...errors import DataFileError, InputError
 from ...scene import PlacedArm, Scene, load_scene
 from ...scene.scene_file import Name, Number, Point, Radians
@@ -40,13 +38,7 @@ from .tip_goal import REACHED, tip_posture
 Joints = list[Radians]
 
 
-class _Model(BaseModel):
-    """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class PostureEntry(_Model):
+class PostureEntry(StrictModel):
     """A flange position, and what else the posture is to fulfil."""
 
     position: Point
@@ -92,14 +84,14 @@ Configuration = Annotated[
 ]
 
 
-class TaskEntry(_Model):
+class TaskEntry(StrictModel):
     """Of one arm; what is left out is taken from the scene file."""
 
     start: Configuration | None = None
     goal: Configuration | None = None
 
 
-class TaskFile(_Model):
+class TaskFile(StrictModel):
     """Content of a task file."""
 
     scene: str = Field(min_length=1, description="path of the scene file, from this file")
