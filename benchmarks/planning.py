@@ -8,11 +8,10 @@ import numpy as np
 from timing import OURS, Row, timed
 
 from dualarm_repro.papers import load
-from dualarm_repro.papers.xue.chosen import assumption, nominal
-from dualarm_repro.papers.xue.layout import placed_master, placed_slave
-from dualarm_repro.papers.xue.methods import improved
+from dualarm_repro.papers.xue.document import assumption, placed_master, placed_slave
 from dualarm_repro.papers.xue.motions import slave_obstacles, window_obstacles
-from dualarm_repro.papers.xue.trials import METHODS, starts
+from dualarm_repro.papers.xue.outcomes import VARIANTS, starts
+from dualarm_repro.papers.xue.reading import improved, nominal
 from dualarm_repro.planning import plan_apf, plan_apf_compiled, plan_batch
 
 _RUNS = 50
@@ -24,7 +23,7 @@ def measure() -> Iterator[Row]:
     case = nominal()
     slave, master = placed_slave(case.layout), placed_master(case.layout)
     obstacles, window = slave_obstacles(case), window_obstacles(case.layout)
-    settings = improved(case.method, case.layout.window_centre, slave.goal)
+    settings = improved(case.planner, case.layout.window_centre, slave.goal)
     begin = starts(case, assumption("trial_perturbation"), _RUNS, np.random.default_rng(0))
     problem = (slave, slave.start, slave.goal, obstacles, settings)
     task = "slave plan, improved"
@@ -36,14 +35,14 @@ def measure() -> Iterator[Row]:
         lambda: plan_batch(slave, begin, slave.goal, obstacles, settings),
         _RUNS,
     )
-    trapped = METHODS["traditional"].settings(case)
+    trapped = VARIANTS["traditional"].settings(case)
     yield timed(
         "slave plan, traditional",
         OURS,
         lambda: plan_batch(slave, begin, slave.goal, obstacles, trapped),
         _RUNS,
     )
-    alone = improved(case.method, case.layout.window_centre, master.goal)
+    alone = improved(case.planner, case.layout.window_centre, master.goal)
     yield timed(
         "master plan, improved",
         OURS,

@@ -166,7 +166,7 @@ def test_a_worker_that_has_read_nothing_knows_the_assumptions():
     code = (
         "from dualarm_repro.papers.pan.nominal import nominal_values\n"
         "from dualarm_repro.papers.qiu.search_rules import nominal_values as of_qiu\n"
-        "from dualarm_repro.papers.xue.chosen import nominal\n"
+        "from dualarm_repro.papers.xue.reading import nominal\n"
         "assert nominal() and nominal_values() and of_qiu()"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=300)

@@ -1,43 +1,5 @@
 """Document `xue`: improved artificial potential field for two Motoman ES165D around a window."""
 
-from . import (
-    chain,
-    chain_errata,
-    drawings,
-    flow_chart,
-    inputs,
-    inverse_calls,
-    link_truth,
-    method_errata,
-    new_potentials,
-    planning_times,
-    potentials,
-    rest,
-    search,
-    statements,
-    superiority,
-    table_2,
-    tracks,
-    workspace,
-)
+from . import errata, pages, studies
 
-__all__ = [
-    "chain",
-    "chain_errata",
-    "drawings",
-    "flow_chart",
-    "inputs",
-    "inverse_calls",
-    "link_truth",
-    "method_errata",
-    "new_potentials",
-    "planning_times",
-    "potentials",
-    "rest",
-    "search",
-    "statements",
-    "superiority",
-    "table_2",
-    "tracks",
-    "workspace",
-]
+__all__ = ["errata", "pages", "studies"]

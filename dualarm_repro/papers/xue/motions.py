@@ -1,10 +1,6 @@
-"""Master first, then slave with the master as moving obstacle, in one arrangement."""
+"""Master first, then slave with the master as moving obstacle; their distances on the way."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -15,36 +11,22 @@ from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.master_slave import at_tool_speed
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
-from ...scene import JointPath, PlacedArm, Scene
+from ...planning.trials.encounter import inside_opening, to_obstacles
+from ...planning.trials.link_cores import LinkCores
+from ...planning.trials.link_cores import link_cores as cores_of_scene
+from ...scene import JointPath, PlacedArm, Scene, facing
 from ...tracking import memo
-from .layout import Layout, placed_master, placed_slave
-from .methods import Method, attraction_only, improved
+from .document import Layout, placed_master, placed_slave, scene_of
+from .reading import Case, PlannerChoice, attraction_only, improved
 
-
-@dataclass(frozen=True)
-class Encounter:
-    """How the arms meet; every field is the assumption of that name."""
-
-    master_as_obstacle: str
-    equal_speed_meaning: str
-
-    @classmethod
-    def of(cls, assumed: Mapping[str, Any]) -> Self:
-        """What the assumptions say."""
-        return cls(**{field.name: assumed[field.name] for field in fields(cls)})
-
-
-class Case(NamedTuple):
-    """Everything two motions depend on."""
-
-    layout: Layout
-    method: Method
-    encounter: Encounter
-
-    @classmethod
-    def of(cls, assumed: Mapping[str, Any]) -> Self:
-        """The case that the assumptions describe."""
-        return cls(*(part.of(assumed) for part in (Layout, Method, Encounter)))
+#: Largest joint step between two looks at whole links [rad].
+_CLOSE = 0.02
+#: Pairs of owners whose links are to stay clear of each other.
+PAIRS = {
+    "slave_window": ("slave", "window"),
+    "master_window": ("master", "window"),
+    "arms": ("master", "slave"),
+}
 
 
 def attempt(
@@ -58,24 +40,29 @@ def attempt(
 
 
 @memo(512)
-def master_plan(layout: Layout, method: Method) -> Plan | None:
+def master_plan(layout: Layout, planner: PlannerChoice) -> Plan | None:
     """Fig. 8: the master past the window by the improved method."""
     placed = placed_master(layout)
-    settings = improved(method, layout.window_centre, placed.goal)
+    settings = improved(planner, layout.window_centre, placed.goal)
     return attempt(placed, placed.start, window_obstacles(layout), settings)
 
 
 @memo(64)
-def master_undisturbed(layout: Layout, method: Method) -> Plan:
+def master_undisturbed(layout: Layout, planner: PlannerChoice) -> Plan:
     """The master under attraction alone."""
-    return _undisturbed(placed_master(layout), method)
+    return _undisturbed(placed_master(layout), planner)
 
 
 @memo(512)
-def slave_undisturbed(layout: Layout, method: Method) -> Plan | None:
+def slave_undisturbed(layout: Layout, planner: PlannerChoice) -> Plan | None:
     """Fig. 9: the slave under attraction alone; None out of reach."""
     placed = placed_slave(layout)
-    return None if placed is None else _undisturbed(placed, method)
+    return None if placed is None else _undisturbed(placed, planner)
+
+
+def _undisturbed(placed: PlacedArm, planner: PlannerChoice) -> Plan:
+    nothing = obstacles_of(Scene([placed]))
+    return plan_apf_compiled(placed, placed.start, placed.goal, nothing, attraction_only(planner))
 
 
 @memo(512)
@@ -85,8 +72,8 @@ def master_track(case: Case) -> JointPath | None:
     ``same_step``: both make one joint step of equal bound per instant. ``same_tool_speed``: the
     end effector of the master moves as fast as that of the undisturbed slave on average.
     """
-    plan = master_plan(case.layout, case.method)
-    slave = slave_undisturbed(case.layout, case.method)
+    plan = master_plan(case.layout, case.planner)
+    slave = slave_undisturbed(case.layout, case.planner)
     if plan is None or slave is None or not plan.reached:
         return None
     if case.encounter.equal_speed_meaning == "same_step":
@@ -102,7 +89,7 @@ def slave_obstacles(case: Case) -> Obstacles | None:
         return None
     whole = case.encounter.master_as_obstacle == "joint_points"
     master = placed_master(case.layout)
-    points = control_points(master.arm, case.method.control_points if whole else "end_effector")
+    points = control_points(master.arm, case.planner.control_points if whole else "end_effector")
     return window_obstacles(case.layout).with_arm(master, points, track)
 
 
@@ -113,7 +100,7 @@ def slave_plan(case: Case) -> Plan | None:
     if obstacles is None:
         return None
     placed = placed_slave(case.layout)
-    settings = improved(case.method, case.layout.window_centre, placed.goal)
+    settings = improved(case.planner, case.layout.window_centre, placed.goal)
     return attempt(placed, placed.start, obstacles, settings)
 
 
@@ -123,6 +110,35 @@ def window_obstacles(layout: Layout) -> Obstacles:
     return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))
 
 
-def _undisturbed(placed: PlacedArm, method: Method) -> Plan:
-    nothing = obstacles_of(Scene([placed]))
-    return plan_apf_compiled(placed, placed.start, placed.goal, nothing, attraction_only(method))
+def flange_to_window(plan: Plan, layout: Layout) -> np.ndarray:
+    """Signed distance of the end effector to the nearest bar, (N,) [m]."""
+    return points_to_window(plan, layout, "end_effector")
+
+
+def points_to_window(plan: Plan, layout: Layout, points: str) -> np.ndarray:
+    """Signed distance of the nearest control point to the nearest bar, (N,) [m]."""
+    return to_obstacles(plan, points, window_obstacles(layout)).min(axis=1)
+
+
+def through_window(plan: Plan, layout: Layout) -> float:
+    """How far inside the opening the end effector passes the window; negative outside it [m]."""
+    size = (layout.window_opening_width, layout.window_opening_height)
+    return inside_opening(plan.tcp, layout.window_centre, facing(layout.normal), size)
+
+
+def link_cores(
+    layout: Layout, slave: Plan, track: JointPath, floor: float | None = None
+) -> LinkCores:
+    """Core distances of all links from the start until both arms rest."""
+    paths = {"master": track, "slave": slave.joint_path()}
+    return cores_of_scene(scene_of(layout, floor), paths, _CLOSE)
+
+
+def smallest_cores(cores: LinkCores) -> dict[str, float]:
+    """Smallest core distance over the motion: either arm to a bar, and between the arms [m]."""
+    return {name: float(cores.between(*pair).min()) for name, pair in PAIRS.items()}
+
+
+def largest_radius(smallest: dict[str, float]) -> float:
+    """Radius of all links up to which none touches a bar or the other arm [m]."""
+    return min(smallest["slave_window"], smallest["master_window"], 0.5 * smallest["arms"])

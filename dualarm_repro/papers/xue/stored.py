@@ -1,30 +1,38 @@
-"""What the stored studies of `xue` say: shares with their intervals."""
+"""What the stored studies of `xue` say: shares and means with intervals."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from ...ledger import REGISTRY
+from ...ledger.shares import Share
 from ...tracking import memo
-from ...view.shares import Share
-from .ablation import ABLATION, NAMED
-from .comparison import COMPARISON
-from .layout import Layout
-from .lottery import LOTTERY
-from .minima import MINIMA
-from .repeated import REPEATED
-from .trap_counts import text_counts
-from .trials import METHODS, wilson
+from .document import Layout, text_counts
+from .motions import PAIRS
+from .outcomes import VARIANTS, variant_of
+from .studies.ablation import ABLATION, NAMED
+from .studies.comparison import COMPARISON
+from .studies.lottery import LOTTERY
+from .studies.minima import MINIMA
+from .studies.trials import REPEATED
+
+#: 97.5 % point of the standard normal distribution.
+_Z = 1.959963984540054
 
 
-def share(count: float, runs: float) -> Share:
-    """An observed share with its 95 % interval after Wilson."""
-    return Share(float(count) / float(runs), *wilson(int(count), int(runs)))
+def mean_with_interval(values: np.ndarray) -> dict[str, float | int]:
+    """Mean (N,), its 95 % interval mean +- 1.96 s / sqrt(N), and N.
+
+    The sample of arrangements is large, so that its mean is close to normal.
+    """
+    values = np.asarray(values, dtype=float)
+    mean = float(values.mean())
+    half = float(_Z * values.std(ddof=1) / np.sqrt(len(values)))
+    return {"value": mean, "low": mean - half, "high": mean + half, "of": len(values)}
 
 
 @memo()
@@ -35,17 +43,12 @@ def lottery_table() -> pd.DataFrame:
 
 def missed(method: str) -> np.ndarray:
     """Runs of ten that miss the goal, per arrangement; ``end_effector`` is the usual reading."""
-    return lottery_table()[f"{column_of(method)}_missed"].to_numpy()
+    return lottery_table()[f"{variant_of(method)}_missed"].to_numpy()
 
 
 def held(method: str) -> np.ndarray:
     """Runs of ten that stand still and stay after small pushes, per arrangement."""
-    return lottery_table()[f"{column_of(method)}_held"].to_numpy()
-
-
-def column_of(method: str) -> str:
-    """Columns of a method; ``end_effector`` is the usual reading of the traditional one."""
-    return "traditional" if method == "end_effector" else method
+    return lottery_table()[f"{variant_of(method)}_held"].to_numpy()
 
 
 def outcomes_of_table_2(reading: str) -> dict[str, np.ndarray]:
@@ -68,13 +71,13 @@ def outcomes_of_table_2(reading: str) -> dict[str, np.ndarray]:
 def lottery_shares(reading: str) -> dict[str, Share]:
     """How often these outcomes show; ``reading`` of the traditional method."""
     found = outcomes_of_table_2(reading)
-    return {name: share(mask.sum(), len(mask)) for name, mask in found.items()}
+    return {name: Share.of(mask.sum(), len(mask)) for name, mask in found.items()}
 
 
 def choice(index: int, verdict: str, **judged: Any) -> dict[str, Any]:
     """An arrangement of the lottery as a witness: its values and what was seen there."""
     row = lottery_table().loc[index]
-    values = {field.name: _plain(row[field.name]) for field in fields(Layout)}
+    values = {name: _plain(row[name]) for name in Layout.names()}
     where = f"arrangement {index} of {LOTTERY.name}"
     return {"choice": where, "verdict": verdict, "values": values, "judged": judged}
 
@@ -82,10 +85,10 @@ def choice(index: int, verdict: str, **judged: Any) -> dict[str, Any]:
 def is_declared(table: pd.DataFrame) -> np.ndarray:
     """Which arrangements lie within the declared ranges, (N,) of bool."""
     inside = np.ones(len(table), dtype=bool)
-    for field in fields(Layout):
-        declared = REGISTRY.declared(f"xue.{field.name}", "range").range
+    for name in Layout.names():
+        declared = REGISTRY.declared(f"xue.{name}", "range").range
         if declared is not None:
-            inside &= table[field.name].between(*declared).to_numpy()
+            inside &= table[name].between(*declared).to_numpy()
     return inside
 
 
@@ -96,7 +99,7 @@ def _plain(found: Any) -> Any:
 def held_share(method: str = "traditional") -> Share:
     """Share of the runs that stand still which stay after small pushes too."""
     table = lottery_table()
-    return share(table[f"{method}_held"].sum(), table[f"{method}_trapped"].sum())
+    return Share.of(table[f"{method}_held"].sum(), table[f"{method}_trapped"].sum())
 
 
 @memo()
@@ -125,10 +128,10 @@ def clear_share(radius: float, *pairs: str) -> Share:
     """
     table = successful()
     clear = np.ones(len(table), dtype=bool)
-    for pair in pairs or ("slave_window", "master_window", "arms"):
+    for pair in pairs or PAIRS:
         width = 2.0 * radius if pair == "arms" else radius
         clear &= table[f"cores_{pair}"].to_numpy() > width
-    return share(clear.sum(), len(clear))
+    return Share.of(clear.sum(), len(clear))
 
 
 @memo()
@@ -137,7 +140,7 @@ def repeated_shares() -> Mapping[str, Mapping[str, Share]]:
     table = REPEATED.load()
     return {
         rule: {
-            method: share(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
+            method: Share.of(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
             for method in ("traditional", "improved", "without_virtual")
         }
         for rule, rows in table.groupby("update_rule", sort=False)
@@ -151,11 +154,11 @@ def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
     groups = {"random arrangements": table[~table["layout"].isin(NAMED)]}
     groups |= {name: table[table["layout"] == name] for name in NAMED}
     return {
-        ablation.title: {
-            group: share(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
+        variant.title: {
+            group: Share.of(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
             for group, rows in groups.items()
         }
-        for method, ablation in METHODS.items()
+        for method, variant in VARIANTS.items()
     }
 
 
@@ -163,7 +166,7 @@ def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
 def minima_shares() -> dict[float, Share]:
     """Share of random pairs whose descent rests in a minimum elsewhere, by weight."""
     table = MINIMA.load().groupby("weight")[["pairs", "minima"]].sum()
-    return {float(weight): share(row.minima, row.pairs) for weight, row in table.iterrows()}
+    return {float(weight): Share.of(row.minima, row.pairs) for weight, row in table.iterrows()}
 
 
 def virtual_point_counts() -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from dualarm_repro.ledger import Registry
-from dualarm_repro.papers.xue import chain, printed_chain
+from dualarm_repro.papers.xue.pages.kinematics import chain, printed_chain
 
 _MEMOS = (printed_chain.link_matrix, printed_chain.general_matrix, chain.symbolic_pose)
 

@@ -5,10 +5,12 @@ import pytest
 
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.ledger.settled import settle
-from dualarm_repro.papers.xue import stored, superiority, table_2
-from dualarm_repro.papers.xue.link_truth import arms_witnesses
-from dualarm_repro.papers.xue.paired import mean_with_interval
-from dualarm_repro.papers.xue.planning_times import printed_seconds
+from dualarm_repro.papers.xue import stored
+from dualarm_repro.papers.xue.pages.table2 import superiority
+from dualarm_repro.papers.xue.pages.table2 import table as table_2
+from dualarm_repro.papers.xue.pages.table2.statements import printed_seconds
+from dualarm_repro.papers.xue.pages.truth import arms_witnesses
+from dualarm_repro.papers.xue.stored import mean_with_interval
 
 
 def settled(registry, name):

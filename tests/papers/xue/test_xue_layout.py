@@ -8,10 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualarm_repro.datafiles import data_path
-from dualarm_repro.papers.xue.chosen import nominal
-from dualarm_repro.papers.xue.layout import arms_of, placed_slave, scene_of
-from dualarm_repro.papers.xue.postures import posture
-from dualarm_repro.papers.xue.scenario import SLAVE_END, SLAVE_START
+from dualarm_repro.papers.xue.document import (
+    arms_of,
+    placed_slave,
+    posture,
+    scene_of,
+    slave_end,
+    slave_start,
+)
+from dualarm_repro.papers.xue.reading import nominal
 from dualarm_repro.scene import load_scene
 
 SLAVE = arms_of("matrices")[1]
@@ -33,7 +38,7 @@ def test_scene_file_is_the_nominal_arrangement(registry):
 
 def test_slave_starts_and_ends_where_printed(registry):
     slave = placed_slave(nominal().layout)
-    for q, point in ((slave.start, SLAVE_START), (slave.goal, SLAVE_END)):
+    for q, point in ((slave.start, slave_start()), (slave.goal, slave_end())):
         reached = slave.placement.act(slave.arm.fk(q)[:3, 3])
         np.testing.assert_allclose(reached, point, atol=1e-12)
 

@@ -6,27 +6,22 @@ import coal
 import numpy as np
 import pytest
 
-from dualarm_repro.papers.xue.chosen import nominal
-from dualarm_repro.papers.xue.facts import (
-    flange_to_window,
-    flanges_apart,
-    flanges_apart_moving,
-    points_to_window,
-    through_window,
-)
-from dualarm_repro.papers.xue.layout import placed_master, placed_slave
-from dualarm_repro.papers.xue.methods import improved, traditional
+from dualarm_repro.papers.xue.document import gains, master_goal, placed_master, placed_slave
 from dualarm_repro.papers.xue.motions import (
+    flange_to_window,
+    largest_radius,
+    link_cores,
     master_plan,
     master_track,
     master_undisturbed,
+    points_to_window,
     slave_obstacles,
     slave_plan,
     slave_undisturbed,
 )
-from dualarm_repro.papers.xue.scenario import GAINS, MASTER_GOAL
-from dualarm_repro.papers.xue.truth import largest_radius, link_cores
+from dualarm_repro.papers.xue.reading import improved, nominal, traditional
 from dualarm_repro.planning import plan_apf
+from dualarm_repro.planning.trials.encounter import tips_apart
 
 
 @pytest.fixture(scope="module")
@@ -35,36 +30,39 @@ def case(registry):
 
 
 def test_printed_gains_reach_the_planner(case):
-    settings = improved(case.method, case.layout.window_centre, MASTER_GOAL)
-    assert settings.attraction.gain == GAINS["k_a"]
-    assert (settings.repulsion.gain, settings.repulsion.influence) == (GAINS["k_r"], GAINS["d_0"])
-    assert settings.virtual_point.gain == GAINS["k_w"]
-    assert traditional(case.method, "end_effector").attraction.joint_weight == 0.0
+    settings = improved(case.planner, case.layout.window_centre, master_goal())
+    assert settings.attraction.gain == gains()["k_a"]
+    assert (settings.repulsion.gain, settings.repulsion.influence) == (
+        gains()["k_r"],
+        gains()["d_0"],
+    )
+    assert settings.virtual_point.gain == gains()["k_w"]
+    assert traditional(case.planner, "end_effector").attraction.joint_weight == 0.0
 
 
 def test_readable_and_compiled_plans_agree(case):
     placed, plan = placed_slave(case.layout), slave_plan(case)
-    settings = improved(case.method, case.layout.window_centre, placed.goal)
+    settings = improved(case.planner, case.layout.window_centre, placed.goal)
     readable = plan_apf(placed, placed.start, placed.goal, slave_obstacles(case), settings)
     assert readable.reason is plan.reason
     np.testing.assert_allclose(readable.path, plan.path, atol=1e-12)
 
 
 def test_master_ends_at_the_printed_goal(case):
-    plan = master_plan(case.layout, case.method)
-    assert np.abs(plan.path[-1] - MASTER_GOAL).max() <= case.method.goal_tolerance
+    plan = master_plan(case.layout, case.planner)
+    assert np.abs(plan.path[-1] - master_goal()).max() <= case.planner.goal_tolerance
 
 
 def test_slave_meets_the_planned_master_step_by_step(case):
-    obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.method)
+    obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.planner)
     flange = [name for name in obstacles.names if name.startswith("master")].index("master/frame_6")
     np.testing.assert_allclose(obstacles.cores[:, flange, 0], plan.tcp, atol=1e-12)
 
 
 def test_equal_tool_speed_retimes_the_master(case):
     other = case._replace(encounter=replace(case.encounter, equal_speed_meaning="same_tool_speed"))
-    track, slave = master_track(other), slave_undisturbed(case.layout, case.method)
-    plan = master_plan(case.layout, case.method)
+    track, slave = master_track(other), slave_undisturbed(case.layout, case.planner)
+    plan = master_plan(case.layout, case.planner)
     assert track.index[-1] == pytest.approx(
         plan.tcp_length * slave.steps / slave.tcp_length, rel=1e-2
     )
@@ -73,14 +71,14 @@ def test_equal_tool_speed_retimes_the_master(case):
 
 def test_undisturbed_plans_ignore_everything(case):
     moved = replace(case.layout, window_centre_x=0.05)
-    first = slave_undisturbed(case.layout, case.method)
-    np.testing.assert_array_equal(first.path, slave_undisturbed(moved, case.method).path)
+    first = slave_undisturbed(case.layout, case.planner)
+    np.testing.assert_array_equal(first.path, slave_undisturbed(moved, case.planner).path)
     assert first.reached
-    assert master_undisturbed(case.layout, case.method).reached
+    assert master_undisturbed(case.layout, case.planner).reached
 
 
 def test_distance_to_the_window_is_that_of_coal(case):
-    plan = slave_undisturbed(case.layout, case.method)
+    plan = slave_undisturbed(case.layout, case.planner)
     found = flange_to_window(plan, case.layout)
     for row in (0, int(found.argmin()), plan.steps):
         point = coal.Sphere(1e-9), coal.Transform3s(np.eye(3), plan.tcp[row])
@@ -93,7 +91,7 @@ def test_distance_to_the_window_is_that_of_coal(case):
 
 
 def test_flange_is_among_the_control_points(case):
-    plan = master_plan(case.layout, case.method)
+    plan = master_plan(case.layout, case.planner)
     points = points_to_window(plan, case.layout, "frames_2_6")
     assert (points >= points_to_window(plan, case.layout, "capsules") - 1e-12).all()
 
@@ -101,10 +99,10 @@ def test_flange_is_among_the_control_points(case):
 def test_a_waiting_slave_counts_only_until_both_rest(case):
     slave, master = slave_plan(case), placed_master(case.layout)
     track = master_track(case)
-    whole = flanges_apart(slave, master, track)
+    whole = tips_apart(slave, master, track)
     assert len(whole) == 1 + max(slave.steps, int(track.index[-1]))
     np.testing.assert_array_equal(
-        flanges_apart_moving(slave, master, track), whole[: slave.steps + 1]
+        tips_apart(slave, master, track, moving=True), whole[: slave.steps + 1]
     )
 
 
@@ -135,5 +133,5 @@ def test_cores_of_links_and_the_radius_they_allow(case):
 
 
 def test_limits_enforced_refuse_the_printed_start(case):
-    method = replace(case.method, joint_limits_in_motion="enforced")
+    method = replace(case.planner, joint_limits_in_motion="enforced")
     assert master_plan(case.layout, method) is None

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 from dualarm_repro.ledger import Verdict, evaluate
-from dualarm_repro.papers.xue import inverse_calls, new_potentials, potentials, printed_field
-from dualarm_repro.papers.xue.trap_counts import table_counts, text_counts
+from dualarm_repro.papers.xue.document import table_counts, text_counts
+from dualarm_repro.papers.xue.pages.potentials import improved as new_potentials
+from dualarm_repro.papers.xue.pages.potentials import printed_field
+from dualarm_repro.papers.xue.pages.potentials import traditional as potentials
+from dualarm_repro.papers.xue.pages.table2 import statements as inverse_calls
 
 #: Another formula that can be parsed, and the printed one with one sign or coefficient changed.
 SLIPS = {

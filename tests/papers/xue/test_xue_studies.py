@@ -3,12 +3,21 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.papers.xue import lottery, minima, stored
-from dualarm_repro.papers.xue.chosen import KEPT, Chosen, assumption, nominal
-from dualarm_repro.papers.xue.facts import flange_to_window, flanges_apart_moving
-from dualarm_repro.papers.xue.layout import Layout, placed_master
-from dualarm_repro.papers.xue.motions import master_track, slave_undisturbed
-from dualarm_repro.papers.xue.search import DEMANDS, SEARCH, disturbed, margins, on_grid, table_2
+from dualarm_repro.ledger.assumptions import Chosen
+from dualarm_repro.papers.xue import stored
+from dualarm_repro.papers.xue.document import Layout, assumption, placed_master
+from dualarm_repro.papers.xue.motions import flange_to_window, master_track, slave_undisturbed
+from dualarm_repro.papers.xue.reading import KEPT, nominal
+from dualarm_repro.papers.xue.studies import lottery, minima
+from dualarm_repro.papers.xue.studies.search import (
+    DEMANDS,
+    SEARCH,
+    disturbed,
+    margins,
+    on_grid,
+    table_2,
+)
+from dualarm_repro.planning.trials.encounter import tips_apart
 
 STUDIES = (
     "xue_search",
@@ -32,10 +41,10 @@ def test_lottery_draws_satisfy_fig_9(registry):
     rng = np.random.default_rng(2)
     case, draws, _ = lottery.random_case(0.15, rng)
     assert draws >= 1
-    slave = slave_undisturbed(case.layout, case.method)
+    slave = slave_undisturbed(case.layout, case.planner)
     assert flange_to_window(slave, case.layout).min() <= 0.0
     master, track = placed_master(case.layout), master_track(case)
-    assert flanges_apart_moving(slave, master, track).min() <= 0.15
+    assert tips_apart(slave, master, track, moving=True).min() <= 0.15
     assert not lottery.repelled_at_goal(case)
 
 
@@ -91,7 +100,7 @@ def test_minima_vanish_with_the_joint_term_alone_in_charge():
 
 
 def test_chosen_reads_assumptions_late(registry):
-    chosen = Chosen((*KEPT, "meeting_distance"), extra=3)
+    chosen = Chosen("xue", (*KEPT, "meeting_distance"), extra=3)
     assert dict(chosen)["meeting_distance"] == assumption("meeting_distance")
     assert chosen["extra"] == 3
     assert len(chosen) == len(KEPT) + 2

@@ -5,24 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dualarm_repro.papers.xue.ablation import NAMED
-from dualarm_repro.papers.xue.chosen import nominal
-from dualarm_repro.papers.xue.layout import placed_slave
+from dualarm_repro.papers.xue.document import placed_slave, posture
 from dualarm_repro.papers.xue.motions import slave_obstacles
-from dualarm_repro.papers.xue.postures import posture
-from dualarm_repro.papers.xue.trials import (
-    FLAT,
-    METHODS,
-    TOUCHES,
+from dualarm_repro.papers.xue.outcomes import (
+    VARIANTS,
     outcomes,
-    run_methods,
-    run_trials,
+    run_variant,
+    run_variants,
     starts,
     summary,
-    wilson,
 )
+from dualarm_repro.papers.xue.reading import nominal
+from dualarm_repro.papers.xue.studies.ablation import NAMED
 from dualarm_repro.planning import StopReason, plan_apf_compiled
 from dualarm_repro.planning.descent.problem import problem
+from dualarm_repro.planning.trials.runs import TOUCHES
 
 
 @pytest.fixture(scope="module")
@@ -41,10 +38,10 @@ def test_starts_stay_within_the_half_width_and_follow_the_seed(case, begin):
     np.testing.assert_array_equal(begin, starts(case, 0.1, 6, np.random.default_rng(3)))
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", VARIANTS)
 def test_batch_agrees_with_single_plans(case, begin, method):
-    runs = run_trials(case, method, begin[:2])
-    placed, settings = placed_slave(case.layout), METHODS[method].settings(case)
+    runs = run_variant(case, method, begin[:2])
+    placed, settings = placed_slave(case.layout), VARIANTS[method].settings(case)
     for k, start in enumerate(begin[:2]):
         plan = plan_apf_compiled(placed, start, placed.goal, slave_obstacles(case), settings)
         assert (runs.reason[k], runs.steps[k]) == (plan.reason, plan.steps)
@@ -54,8 +51,8 @@ def test_batch_agrees_with_single_plans(case, begin, method):
 def test_rerun_of_the_missed_is_the_improved_method(case):
     yawed = case._replace(layout=replace(case.layout, **NAMED["yawed"]))
     begin = starts(yawed, 0.1, 5, np.random.default_rng(0))
-    made = run_methods(yawed, ("without_virtual", "improved"), begin)
-    whole = run_trials(yawed, "improved", begin)
+    made = run_variants(yawed, ("without_virtual", "improved"), begin)
+    whole = run_variant(yawed, "improved", begin)
     assert (made["without_virtual"].reason != StopReason.REACHED).any(), "the point is needed here"
     for one, other in zip(made["improved"], whole, strict=True):
         np.testing.assert_array_equal(one, other)
@@ -64,12 +61,12 @@ def test_rerun_of_the_missed_is_the_improved_method(case):
 
 def test_trapped_runs_stand_where_the_gradient_vanishes(case):
     begin = starts(case, 0.1, 10, np.random.default_rng(0))
-    runs = run_trials(case, "traditional", begin)
+    runs = run_variant(case, "traditional", begin)
     found = summary(case, "traditional", runs)
     assert 0 < found.stationary <= found.trapped
     placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
     made = problem(
-        placed, placed.start, placed.goal, obstacles, METHODS["traditional"].settings(case)
+        placed, placed.start, placed.goal, obstacles, VARIANTS["traditional"].settings(case)
     )
     rest = len(obstacles.cores) - 1
     flat = (runs.reason == StopReason.TRAPPED) & (runs.gradient <= FLAT)
@@ -86,13 +83,13 @@ def test_trapped_runs_stand_where_the_gradient_vanishes(case):
 def test_a_wall_holds_an_arm_against_pushes(case):
     """Without an opening, and too wide to slide off, the wall is a minimum that no push leaves."""
     begin = starts(case, 0.1, 10, np.random.default_rng(0))
-    found = summary(case, "traditional", run_trials(case, "traditional", begin))
+    found = summary(case, "traditional", run_variant(case, "traditional", begin))
     assert found.held <= found.trapped
     closed = replace(
         case.layout, window_opening_width=0.02, window_opening_height=0.02, window_bar=0.4
     )
     wall = case._replace(layout=closed)
-    found = summary(wall, "traditional", run_trials(wall, "traditional", begin))
+    found = summary(wall, "traditional", run_variant(wall, "traditional", begin))
     assert found.held == found.trapped == found.stationary == len(begin)
 
 
@@ -101,7 +98,7 @@ def test_a_perturbed_start_that_touches_a_bar_is_named_and_counted(case):
     inside = [posture(arm, bar.center - base, "radial_horizontal") for bar in case.layout.window()]
     begin = np.array([q for q in inside if q is not None])
     assert len(begin), "the middle of some bar is within reach"
-    runs = run_trials(case, "traditional", begin)
+    runs = run_variant(case, "traditional", begin)
     assert set(runs.reason) == {TOUCHES}
     assert summary(case, "traditional", runs).missed == len(begin)
 

@@ -1,0 +1,302 @@
+"""Machine proofs of the errata of `xue`: kinematics, potentials, planning, Table 2."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arms import load_arm
+from ...ledger import REGISTRY, Proof, evaluate
+from ...planning.field.control_points import end_effector
+from ...planning.trials.stuck import STATIONARY
+from .document import (
+    gains,
+    lengths,
+    master_goal,
+    master_start,
+    placed_master,
+    reach,
+    slave_end,
+    slave_start,
+    table_counts,
+    text_counts,
+)
+from .motions import (
+    largest_radius,
+    link_cores,
+    master_track,
+    master_undisturbed,
+    slave_plan,
+    smallest_cores,
+)
+from .outcomes import TRIALS, VARIANTS, run_variants, starts
+from .pages.kinematics.chain import symbolic_poses
+from .pages.kinematics.printed_chain import (
+    LINKS,
+    SHARED,
+    equal,
+    link_matrix,
+    printed_lengths,
+    printed_parameters,
+    substituted,
+    table_parameters,
+    table_pose,
+)
+from .pages.potentials.improved import rest_slope, term_scaling
+from .pages.potentials.traditional import attractive_force_forms
+from .pages.truth import RADII
+from .reading import nominal
+from .stored import ablation_shares, clear_share, minima_shares, virtual_point_counts
+
+
+@REGISTRY.proves("xue.eq01_angle")
+def eq01_angle() -> Proof:
+    """Substituting the parameters into (1) as printed and corrected."""
+    literal = [k + 1 for k in LINKS if equal(substituted(k, corrected=False), link_matrix(k))]
+    corrected = [k + 1 for k in LINKS if equal(substituted(k, corrected=True), link_matrix(k))]
+    return Proof(
+        "only with the twist angle does (1) reproduce every matrix (2)-(7)",
+        len(corrected) == len(LINKS) > len(literal),
+        {"matrices_as_printed": literal, "matrices_with_alpha": corrected},
+    )
+
+
+@REGISTRY.proves("xue.table1_shift")
+def table1_shift() -> Proof:
+    """Column a of the table against the matrices, and what the two readings differ by."""
+    column = table_parameters()["a"]
+    matrices = printed_parameters()["a"]
+    ends = {
+        pose: _difference(q) for pose, q in (("start", master_start()), ("goal", master_goal()))
+    }
+    return Proof(
+        "the printed column equals that of the matrices moved up one row; the readings agree at "
+        "the start, where only the sum of the lengths counts, and not at the goal",
+        column == [*matrices[1:], 0.0]
+        and column != matrices
+        and ends["start"] < 1e-12 < ends["goal"],
+        {
+            "flange_difference_start": ends["start"],
+            "flange_difference_goal": ends["goal"],
+            "reach_matrices": reach("matrices"),
+            "reach_table": reach("table"),
+        },
+    )
+
+
+@REGISTRY.proves("xue.table1_unit")
+def table1_unit() -> Proof:
+    """Lengths read as metres are those of the published robot; as millimetres nothing is."""
+    printed, published = printed_lengths(), lengths("published")
+    metres = [name for name in SHARED if np.isclose(printed[name], published[name], atol=1e-12)]
+    millimetres = [name for name in SHARED if np.isclose(1e-3 * printed[name], published[name])]
+    return Proof(
+        "read as metres, a1, a3, d4 and d6 are those of the published robot; read as millimetres, "
+        "as headed, none is, and the arm would reach a few millimetres",
+        metres == list(SHARED) and not millimetres,
+        {"reach_if_millimetres_in_mm": reach("matrices"), "equal_in_metres": metres},
+    )
+
+
+@REGISTRY.proves("xue.upper_arm")
+def upper_arm() -> Proof:
+    """The one link length that is not that of the robot named."""
+    printed, published = printed_lengths()["a2"], lengths("published")["a2"]
+    return Proof(
+        "the printed upper arm is shorter than the published one",
+        published > printed,
+        {
+            "printed": printed,
+            "published": published,
+            "reach_matrices": reach("matrices"),
+            "reach_published_from_floor": reach("published"),
+        },
+    )
+
+
+@REGISTRY.proves("xue.base_height")
+def base_height() -> Proof:
+    """Without the published base height the start lies below the floor."""
+    height = lengths("published")["d1"]
+    z = float(load_arm("es165d").fk(master_start())[2, 3])
+    return Proof(
+        "the matrices have no base height, and with the published one the start pose would put the "
+        "flange of a standing robot below the floor",
+        printed_lengths()["d1"] == 0.0 < height and z + height < 0,
+        {"published_height": height, "flange_above_floor_at_start": z + height},
+    )
+
+
+@REGISTRY.proves("xue.start_outside_limits")
+def start_outside_limits() -> Proof:
+    """The printed start against the ranges of the real robot, mapped to the document's zero."""
+    arm = load_arm("es165d")
+    excess = np.rad2deg(master_start() - arm.upper)
+    return Proof(
+        "axis L is beyond its range at the printed start and within it at the printed goal",
+        bool(excess[1] > 0 and master_goal()[1] < arm.upper[1]),
+        {
+            "axis_L_at_start_deg": float(90 + np.rad2deg(master_start()[1])),
+            "beyond_range_deg": float(excess[1]),
+        },
+    )
+
+
+def _difference(q: np.ndarray) -> float:
+    matrices = symbolic_poses(q[np.newaxis])[0]
+    return float(np.linalg.norm(matrices[:3, 3] - table_pose(q)[:3, 3]))
+
+
+@REGISTRY.proves("xue.force_modulus")
+def force_modulus() -> Proof:
+    """The two printed sides of (11), and the last one without its modulus."""
+    forms = attractive_force_forms()
+    return Proof(
+        "-grad U_att of (9) equals -k_a (X - X_g) and not, even along a line, -k_a |X - X_g|",
+        forms["vector_form"] and not forms["printed_form"],
+        forms,
+    )
+
+
+@REGISTRY.proves("xue.eq13_units")
+def eq13_units() -> Proof:
+    """Dimensions of the two terms, and what a change of the unit of length does."""
+    shares, scaling = minima_shares(), term_scaling()
+    metres, millimetres = shares[1.0].value, shares[1e-6].value
+    return Proof(
+        "the two printed terms do not scale alike with the unit of length, which so is a weight: "
+        "with lengths in millimetres far more descents end elsewhere than with metres",
+        not scaling["one_dimension"] and shares[1e-6].low > shares[1.0].high,
+        {**scaling, "minima_share_in_m": metres, "minima_share_in_mm": millimetres},
+    )
+
+
+@REGISTRY.proves("xue.eq13_minima")
+def eq13_minima() -> Proof:
+    """Descents of (13) without any obstacle."""
+    shares = minima_shares()
+    return Proof(
+        "without any obstacle some descents of (13), weight 1 in metres, end in a minimum "
+        "elsewhere; the more the position weighs, the more do",
+        shares[1.0].low > 0.0 and shares[0.1].low > shares[1.0].high,
+        {f"weight {weight:g}": found.value for weight, found in shares.items()},
+    )
+
+
+@REGISTRY.proves("xue.slave_goal_angles")
+def slave_goal_angles() -> Proof:
+    """Calls of inverse kinematics that the goal of the slave costs."""
+    values = evaluate(REGISTRY, "xue.claim_no_ik").result.obtained
+    return Proof(
+        "(13) cannot be evaluated for the slave before inverse kinematics has been called for its "
+        "goal",
+        values["needs_goal_angles"] and values["calls"]["slave"] >= 1 > values["calls"]["master"],
+        values,
+    )
+
+
+@REGISTRY.proves("xue.virtual_term_absent")
+def virtual_term_absent() -> Proof:
+    """A term of the form (9) that always acts keeps the arm off its goal."""
+    case = nominal()
+    layout = case.layout
+    share = gains()["k_w"] / (gains()["k_w"] + gains()["k_a"])
+    offset = share * float(np.linalg.norm(slave_end() - layout.window_centre))
+    return Proof(
+        "with the term always on, the end effector would rest on the line from goal to virtual "
+        "point, so that a rule for switching it off is needed",
+        rest_slope() < 1e-6 and offset > case.planner.goal_tolerance,
+        {"rest_share": share, "slave_distance_from_goal": offset},
+    )
+
+
+@REGISTRY.proves("xue.virtual_point_credit")
+def virtual_point_credit() -> Proof:
+    """Runs of the improved method with and without its virtual point, same starts."""
+    shares = ablation_shares()
+    with_point, without = (
+        shares[VARIANTS[name].title]["nominal"].value for name in ("improved", "without_virtual")
+    )
+    counts = virtual_point_counts()
+    return Proof(
+        "in the arrangement shown the improved method misses as rarely without the virtual point, "
+        "so that the joint term frees the arm; over random arrangements the point saves few of "
+        "the runs in which it acts",
+        with_point == without and counts["rescued"] < 0.5 * counts["used"],
+        {"missed_with": with_point, "missed_without": without, **counts},
+    )
+
+
+@REGISTRY.proves("xue.stop_at_zero")
+def stop_at_zero() -> Proof:
+    """Where a trapped run stands still the potential is positive."""
+    obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
+    return Proof(
+        "where a run stands still short of the goal the gradient vanishes, not the potential",
+        obtained["at_trap"] > obtained["off_goal"] > 0.0 and obtained["gradient"] < STATIONARY,
+        obtained,
+    )
+
+
+@REGISTRY.proves("xue.table2_exchange")
+def table2_exchange() -> Proof:
+    """The trap column as printed against the text before the table."""
+    table, text = table_counts(), text_counts()
+    exchanged = dict(zip(table, reversed(table.values()), strict=True))
+    return Proof(
+        "the trap column of the table contradicts the text, and agrees with it once its two "
+        "entries are exchanged",
+        table != text and exchanged == text,
+        {"table": table, "text": text, "table_exchanged": exchanged},
+    )
+
+
+@REGISTRY.proves("xue.deterministic_trials")
+def deterministic_trials() -> Proof:
+    """Ten runs from one and the same start."""
+    case = nominal()
+    begin = starts(case, 0.0, TRIALS, np.random.default_rng(0))
+    found = run_variants(case, ("traditional", "improved"), begin)
+    missed = {name: int((~runs.reached).sum()) for name, runs in found.items()}
+    return Proof(
+        "ten runs from one start all end alike, so that 8 of 10 needs a variation that is not "
+        "named",
+        all(count in (0, TRIALS) for count in missed.values())
+        and all(len(np.unique(runs.last, axis=0)) == 1 for runs in found.values()),
+        missed,
+    )
+
+
+@REGISTRY.proves("xue.tool_only")
+def tool_only() -> Proof:
+    """Arrangements in which the end effectors are clear and links are not."""
+    case = nominal()
+    cores = link_cores(case.layout, slave_plan(case), master_track(case))
+    shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
+    return Proof(
+        "there are arrangements in which both end effectors do what the figures show while links "
+        "of a tenth of a metre touch window or arm",
+        clear_share(0.10).high < 1.0,
+        {**shares, "nominal_touches_at": largest_radius(smallest_cores(cores))},
+    )
+
+
+@REGISTRY.proves("xue.layout_conflict")
+def layout_conflict() -> Proof:
+    """Synchronous distance of the master's undisturbed track and the straight slave line."""
+    case = nominal()
+    master = master_undisturbed(case.layout, case.planner)
+    track = end_effector(placed_master(case.layout), master.path) - case.layout.master_base
+    share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
+    line = slave_start() + share * (slave_end() - slave_start())
+    sideways = [
+        float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
+        for offset in np.linspace(-4.0, 4.0, 801)
+    ]
+    farthest = REGISTRY.declared("xue.meeting_distance", "range").range[1]
+    anywhere = float(np.linalg.norm(track + case.layout.master_base - line, axis=1).min())
+    return Proof(
+        "a base moved sideways only never brings the two end effectors together at one instant; "
+        "one moved in three directions does",
+        min(sideways) > farthest > anywhere,
+        {"best_sideways": min(sideways), "base_of_the_arrangement": anywhere},
+    )

@@ -1,0 +1,316 @@
+"""Figures 1-3 of `xue` and statements on the arms: wrist, mirror image, start and goal."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+import sympy as sp
+
+from .....arms import load_arm
+from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
+from .....view.arm_drawings import dimension_drawing, frames_figure, stick_figure
+from .....view.scene3d import Scene3D
+from .....view.style import MASTER, SLAVE
+from ....wording import point
+from ...document import (
+    SEED,
+    base_placements,
+    lengths,
+    master_goal,
+    master_start,
+    placed_master,
+)
+from ...reading import nominal
+from .printed_chain import (
+    LINKS,
+    SHARED,
+    equal,
+    joint_variable,
+    link_matrix,
+    printed_lengths,
+    product,
+    substituted,
+)
+
+checks = partial(REGISTRY.checks, page="xue/kinematics")
+
+
+@checks(
+    "xue.fig01",
+    rules=[
+        Residual(
+            "shared_difference",
+            "a1, a3, d4 and d6 of the matrices are those of the published robot, to [m]",
+            high=1e-12,
+        ),
+        NoOriginal("dimensions", "the dimensions inside the drawing"),
+    ],
+)
+def dimensions(assumed: Assumed) -> Result:
+    """Side view of the published robot, with the lengths the matrices share with it."""
+    printed, published = printed_lengths(), lengths("published")
+    differences = {name: published[name] - printed[name] for name in printed}
+    table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
+    return Result(
+        obtained={
+            "published": published,
+            "matrices": printed,
+            "shared_difference": max(abs(differences[name]) for name in SHARED),
+        },
+        table=table.reset_index(),
+        caption=(
+            "Published ES165D in the maker's upright posture. The matrices share "
+            f"{', '.join(SHARED)} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
+            f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The "
+            "text edition carries no number of the drawing, so there is nothing to compare it with."
+        ),
+        alt=(
+            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
+            "to the flange, with six dimension lines in millimetres."
+        ),
+        figure=lambda: _draw_dimensions(published),
+    )
+
+
+@checks(
+    "xue.fig02",
+    rules=[
+        Residual("axis_error", "each z axis is the axis its joint turns about, to", high=1e-12),
+        Residual("frame_error", "each frame is the product of printed matrices, to", high=1e-12),
+        NoOriginal("drawing", "the drawing of the frames"),
+    ],
+)
+def link_frames(assumed: Assumed) -> Result:
+    """Frames 0 to 6 of the matrices at q = 0."""
+    arm = load_arm("es165d")
+    frames = np.array([np.eye(4), *_joint_frames(master_start())])
+    turned = [_joint_frames(_unit(k, 0.7))[k] for k in range(arm.nq)]
+    error = max(
+        float(abs(pin.log3(frames[k + 1, :3, :3].T @ turned[k][:3, :3]) - [0, 0, 0.7]).max())
+        for k in range(arm.nq)
+    )
+    table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=_frame_columns())
+    table.insert(0, "frame", range(7))
+    return Result(
+        obtained={
+            "origins": frames[:, :3, 3].tolist(),
+            "axis_error": error,
+            "frame_error": float(abs(frames - _printed_frames(master_start())).max()),
+        },
+        table=table,
+        caption=(
+            "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm "
+            f"hangs down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common "
+            f"origin: {_common_origins(frames)}. The drawing is not in the text edition."
+        ),
+        alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
+        figure=lambda: frames_figure(frames, 0.25),
+    )
+
+
+@checks(
+    "xue.fig03",
+    samples=32,
+    rules=[
+        Residual("mirror_error", "the slave is the reflection of the master, to [m]", high=1e-12),
+        NoOriginal("bases", "the base poses"),
+    ],
+)
+def both_arms(assumed: Assumed) -> Result:
+    """Master and mirrored slave in one posture, their bases apart along y."""
+    distance = assumed["base_distance"]
+    posture = assumed["display_posture"]
+    q = {"start": master_start(), "goal": master_goal()}[posture]
+    master, slave = load_arm("es165d"), load_arm("es165d-slave")
+    left, right = base_placements(distance)
+    arms = {"master": (master, q, left), "slave": (slave, -q, right)}
+    flip = np.array([1.0, -1.0, 1.0])
+    tips = {name: place.act(arm.fk(pose)[:3, 3]) for name, (arm, pose, place) in arms.items()}
+    error = float(abs(tips["master"] * flip - tips["slave"]).max())
+
+    def scene() -> Scene3D:
+        made = Scene3D(
+            f"Both arms of the document at the printed {posture}.", camera=(6.0, -3.0, 2.5)
+        )
+        made.add_arm("master", master, q, left, MASTER)
+        made.add_arm("slave", slave, -q, right, SLAVE)
+        return made
+
+    return Result(
+        obtained={"flanges": {k: v.tolist() for k, v in tips.items()}, "mirror_error": error},
+        caption=(
+            f"Master and mirrored slave at the printed {posture}, bases {distance:g} m apart "
+            f"(assumed); flanges at ({point(tips['master'], 3)}) and ({point(tips['slave'], 3)}) "
+            "m. Neither the base poses nor the posture shown are printed, so the figure cannot be "
+            "compared."
+        ),
+        alt="Stick figures of two six-joint arms, mirror images of each other, side by side.",
+        figure=lambda: stick_figure(arms, elev=18, azim=-35),
+        scene=scene,
+    )
+
+
+@checks(
+    "xue.claim_spherical_wrist",
+    rules=[
+        Is("origins_coincide", "frames 4, 5 and 6 less d_6 share their origin", value=True),
+        Residual("spread", "largest distance of the three axes' common point [m]", high=1e-12),
+    ],
+)
+def spherical_wrist(assumed: Assumed) -> Result:
+    """Axes 4, 5 and 6 pass through one point: in symbols, and in Pinocchio at random poses."""
+    frames = [product([link_matrix(k) for k in range(1, last + 1)]) for last in (4, 5, 6)]
+    wrist, same, sixth = (frame[:3, 3] for frame in frames)
+    # Axis 6 is the z axis of frame 6, whose origin lies d_6 further out along it.
+    reach = link_matrix(6)[1, 3]
+    back = sixth - reach * frames[2][:3, 2]
+    meets = equal(sp.Matrix(wrist), sp.Matrix(same)) and equal(sp.Matrix(wrist), sp.Matrix(back))
+    spread = _axis_spread()
+    return Result(
+        obtained={"origins_coincide": meets, "spread": spread},
+        caption=(
+            "The last three joint axes meet in one point for every configuration, proved in "
+            f"symbols; in Pinocchio they miss a common point by at most {spread:.1e} m on 1000 "
+            "random poses."
+        ),
+    )
+
+
+@checks(
+    "xue.claim_mirror",
+    rules=[
+        Is("symbolic", "negated alpha and theta give M T(q) M in symbols", value=True),
+        Residual("pinocchio", "largest difference of the two models", high=1e-12),
+    ],
+)
+def mirror(assumed: Assumed) -> Result:
+    """With M = diag(1, -1, 1, 1): negating alpha and theta turns every T_i into M T_i M."""
+    M = sp.diag(1, -1, 1, 1)
+    symbolic = all(
+        substituted(k, corrected=True, mirrored=True).equals(M * link_matrix(k) * M) for k in LINKS
+    )
+    master, slave = load_arm("es165d"), load_arm("es165d-slave")
+    q = master.random_configurations(1000, np.random.default_rng(SEED))
+    flip = np.diag([1.0, -1.0, 1.0, 1.0])
+    difference = float(abs(slave.fk(-q) - flip @ master.fk(q) @ flip).max())
+    goal = slave.fk(-master_goal())[:3, 3]
+    return Result(
+        obtained={"symbolic": symbolic, "pinocchio": difference, "slave_goal": goal.tolist()},
+        caption=(
+            "Negating alpha and theta is exactly the reflection in the xz plane of the base, link "
+            f"by link in symbols and to {difference:.1e} between the two models. At the mirrored "
+            f"goal the slave's flange is at ({point(goal)}) m."
+        ),
+    )
+
+
+@checks(
+    "xue.claim_master_start",
+    rules=[Adopts("q", "start angles used [rad]", to="q")],
+)
+def start_of_master(assumed: Assumed) -> Result:
+    """Start of the master, and how far it is outside the range of the real axis L."""
+    arm = load_arm("es165d")
+    start = placed_master(nominal().layout).start
+    excess = float(np.rad2deg(start[1] - arm.upper[1]))
+    tcp = arm.fk(start)[:3, 3]
+    return Result(
+        obtained={"q": start.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
+        caption=(
+            f"The start is used as printed; its flange is at ({point(tcp)}) m. Axis L of the real "
+            f"robot would be {abs(excess):.1f} deg {'beyond' if excess > 0 else 'inside'} its "
+            "range."
+        ),
+    )
+
+
+@checks(
+    "xue.claim_master_goal",
+    rules=[Adopts("q", "goal angles used [rad]", to="q")],
+)
+def goal_of_master(assumed: Assumed) -> Result:
+    """Goal of the master; unlike the start it tells Table 1 from the matrices."""
+    arm, goal = load_arm("es165d"), placed_master(nominal().layout).goal
+    tcp = arm.fk(goal)[:3, 3]
+    inside = arm.within_limits(goal)
+    return Result(
+        obtained={"q": goal.tolist(), "tcp": tcp.tolist(), "within_limits": inside},
+        caption=(
+            f"The goal is used as printed; its flange is at ({point(tcp)}) m, "
+            f"{'inside' if inside else 'outside'} the joint ranges of the real robot."
+        ),
+    )
+
+
+def _axis_spread() -> float:
+    """Largest distance from the wrist point to axes 4, 5 and 6 over random poses."""
+    arm = load_arm("es165d")
+    data = arm.model.createData()
+    largest = 0.0
+    for q in arm.random_configurations(1000, np.random.default_rng(SEED)):
+        pin.forwardKinematics(arm.model, data, q)
+        wrist = data.oMi[5].translation
+        for joint in (4, 5, 6):
+            placement = data.oMi[joint]
+            offset = np.cross(wrist - placement.translation, placement.rotation[:, 2])
+            largest = max(largest, float(np.linalg.norm(offset)))
+    return largest
+
+
+def _joint_frames(q: np.ndarray) -> list[np.ndarray]:
+    """Link frames 1 to 6 of the modified DH chain."""
+    arm = load_arm("es165d")
+    data = arm.model.createData()
+    pin.forwardKinematics(arm.model, data, q)
+    return [data.oMi[k].homogeneous for k in range(1, arm.nq + 1)]
+
+
+def _printed_frames(q: np.ndarray) -> np.ndarray:
+    """Frames 0 to 6 as products of matrices (2)-(7)."""
+    frames = [np.eye(4)]
+    for k in LINKS:
+        link = link_matrix(k).subs(joint_variable(k), q[k - 1])
+        frames.append(frames[-1] @ np.array(link, dtype=float))
+    return np.array(frames)
+
+
+def _common_origins(frames: np.ndarray) -> str:
+    groups: dict[tuple[float, ...], list[str]] = {}
+    for number, frame in enumerate(frames):
+        groups.setdefault(tuple(frame[:3, 3].round(9) + 0.0), []).append(str(number))
+    return "; ".join(" and ".join(group) for group in groups.values() if len(group) > 1)
+
+
+def _unit(k: int, angle: float) -> np.ndarray:
+    q = np.zeros(6)
+    q[k] = angle
+    return q
+
+
+def _frame_columns() -> list[str]:
+    return [f"{axis}{row}" for row in "xyz" for axis in ("n", "o", "a", "p")]
+
+
+def _draw_dimensions(size: dict[str, float]) -> object:
+    """Skeleton in the maker's upright posture, drawn from the lengths alone."""
+    base, axis_s = np.array([0.0, 0.0]), np.array([0.0, size["d1"]])
+    axis_l = axis_s + np.array([size["a1"], 0.0])
+    axis_u = axis_l + np.array([0.0, size["a2"]])
+    corner = axis_u + np.array([0.0, size["a3"]])
+    wrist = corner + np.array([size["d4"], 0.0])
+    flange = wrist + np.array([size["d6"], 0.0])
+    outline = np.array([base, axis_s, axis_l, axis_u, corner, wrist, flange])
+    return dimension_drawing(
+        outline,
+        [
+            ("d1", base, axis_s, (-0.25, 0.0)),
+            ("a1", axis_s, axis_l, (0.0, -0.15)),
+            ("a2", axis_l, axis_u, (0.25, 0.0)),
+            ("a3", axis_u, corner, (-0.25, 0.0)),
+            ("d4", corner, wrist, (0.0, 0.15)),
+            ("d6", wrist, flange, (0.0, -0.15)),
+        ],
+    )

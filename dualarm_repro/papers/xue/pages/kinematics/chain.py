@@ -1,0 +1,273 @@
+"""Table 1 and equations (1)-(8): the kinematic chain of the master."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+import sympy as sp
+
+from .....arms import load_arm
+from .....errors import DataFileError
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role, Rounds
+from .....ledger.formula import parse
+from .....tracking import memo
+from ....wording import point
+from ...document import READINGS, SEED, master_goal, master_start, reach
+from .printed_chain import (
+    ALPHA,
+    LINKS,
+    THETA,
+    A,
+    D,
+    equal,
+    general_matrix,
+    joint_variable,
+    link_matrix,
+    printed_parameters,
+    product,
+    substituted,
+    table_parameters,
+    table_pose,
+)
+
+checks = partial(REGISTRY.checks, page="xue/kinematics")
+#: Configurations at which (8) is multiplied out as printed.
+_FORMULA = 100
+#: A printed "0" would else stand for anything below one half.
+_EXACT = {"tolerance": 1e-12, "reason": "parameters of one chain, exact"}
+
+
+@checks(
+    "xue.tab01",
+    rules=[
+        Rounds(key="d", to="d", label="column d is that of matrices (2)-(7)", **_EXACT),
+        Rounds(key="alpha", to="alpha", label="column alpha is that of the matrices", **_EXACT),
+        Rounds(key="a_one_row_up", to="a", label="column a is theirs, one row too high", **_EXACT),
+        Is(
+            "shift_explains",
+            "column a under its own header is not that of the matrices, one row down it is",
+            value=True,
+            role=Role.CONTRADICTS,
+        ),
+        Bounded(
+            "goal_distance",
+            "the table read under its own header misses the matrices at the goal by [m]",
+            low="last_digit",
+            role=Role.CONTRADICTS,
+        ),
+    ],
+)
+def table_1(assumed: Assumed) -> Result:
+    """Table 1 against the parameters recovered from the matrices, and the two goal poses."""
+    parameters, column = printed_parameters(), table_parameters()["a"]
+    shifted = [*parameters["a"][1:], 0.0]
+    goal = master_goal()[np.newaxis]
+    goals = {"matrices": symbolic_poses(goal)[0, :3, 3], "table": table_pose(master_goal())[:3, 3]}
+    distance = float(np.linalg.norm(goals["matrices"] - goals["table"]))
+    table = pd.DataFrame(
+        {
+            "link": list(LINKS),
+            "a_printed": REGISTRY.printed("xue.tab01")["a"],
+            "a_matrices": parameters["a"],
+            "d_matrices": parameters["d"],
+            "alpha_matrices": parameters["alpha"],
+        }
+    )
+    return Result(
+        obtained={
+            **parameters,
+            "a_one_row_up": shifted,
+            "shift_explains": column == shifted and column != parameters["a"],
+            "goal_matrices": goals["matrices"].tolist(),
+            "goal_table": goals["table"].tolist(),
+            "goal_distance": distance,
+            "reach": {reading: reach(reading) for reading in READINGS},
+        },
+        table=table,
+        caption=(
+            "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row "
+            f"too high under its own header. At the master's goal the two readings put the flange "
+            f"{distance:.4f} m apart, so the document contradicts itself. Reach from the base: "
+            f"{reach('matrices'):.3f} m by the matrices, {reach('table'):.3f} m by the table, "
+            f"{reach('published'):.3f} m for the published robot, base height included."
+        ),
+    )
+
+
+@checks(
+    "xue.eq01",
+    rules=[
+        Is("links_with_alpha", "with alpha, (1) gives all six matrices (2)-(7)", value=6),
+        Is(
+            "is_product",
+            "with alpha, (1) is Rx(alpha) Tx(a) Rz(theta) Tz(d) in symbols",
+            value=True,
+        ),
+        Is(
+            "only_with_alpha",
+            "with the length a inside sine and cosine, as printed, (1) does not",
+            value=True,
+            role=Role.CONTRADICTS,
+        ),
+    ],
+)
+def general_transform(assumed: Assumed) -> Result:
+    """Equation (1) as printed and corrected, against the six matrices."""
+    counts = {
+        corrected: sum(equal(substituted(k, corrected=corrected), link_matrix(k)) for k in LINKS)
+        for corrected in (False, True)
+    }
+    return Result(
+        obtained={
+            "is_product": equal(general_matrix(corrected=True), _product_of_screws()),
+            "links_as_printed": counts[False],
+            "links_with_alpha": counts[True],
+            "only_with_alpha": counts[False] < counts[True] == len(LINKS),
+        },
+        caption=(
+            f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist "
+            f"angle alpha in place of the length a inside sine and cosine it gives {counts[True]}."
+        ),
+    )
+
+
+def _product_of_screws() -> sp.Matrix:
+    """Rx(alpha) Tx(a) Rz(theta) Tz(d), the definition that (1) spells out."""
+
+    def screw(turn: sp.Matrix, shift: list[sp.Expr]) -> sp.Matrix:
+        upper = turn.row_join(sp.Matrix(shift))
+        return upper.col_join(sp.Matrix([[0, 0, 0, 1]]))
+
+    about_x, about_z = sp.rot_ccw_axis1(ALPHA), sp.rot_ccw_axis3(THETA)
+    return screw(about_x, [A, 0, 0]) * screw(about_z, [0, 0, D])
+
+
+def _register_link(k: int) -> None:
+    """Equations (2)-(7): one printed link transform each."""
+
+    @checks(
+        f"xue.eq{k + 1:02d}",
+        rules=[
+            Is("equals_eq_1", "equals (1), corrected, for this link's parameters", value=True),
+            Is("equals_dh", "equals Rx(alpha) Tx(a) Rz(theta) Tz(d) of the arm", value=True),
+            Residual("pinocchio", "largest difference to Pinocchio's placement", high=1e-12),
+        ],
+    )
+    def link_transform(assumed: Assumed) -> Result:
+        arm, printed = load_arm("es165d"), link_matrix(k)
+        difference = _largest_difference_to_pinocchio(k)
+        return Result(
+            obtained={
+                "equals_eq_1": equal(substituted(k, corrected=True), printed),
+                "equals_dh": equal(arm.link_transforms()[k - 1], printed),
+                "pinocchio": difference,
+            },
+            caption=(
+                f"Matrix ({k + 1}) equals the corrected (1) and the arm's own link transform in "
+                f"symbols, and Pinocchio's joint placement to {difference:.1e}."
+            ),
+        )
+
+
+for _k in LINKS:
+    _register_link(_k)
+
+
+@checks(
+    "xue.eq08",
+    rules=[
+        Is("product_is_dh", "product of the printed matrices is the arm's T(q)", value=True),
+        Is(
+            "names", "the printed matrix names twelve entries over the last row of T(q)", value=True
+        ),
+        Residual(
+            "formula", "(8) as printed, with matrices (2)-(7) put in, to Pinocchio", high=1e-12
+        ),
+        Residual("pinocchio", "largest difference to Pinocchio", high=1e-12),
+        Residual("kernel", "largest difference to the batch kernel", high=1e-12),
+        Residual("orthonormal", "n, o, a are orthonormal to", high=1e-12),
+    ],
+)
+def end_effector_pose(assumed: Assumed) -> Result:
+    """Equation (8): the product in symbols, in Pinocchio and in the batch kernel."""
+    arm = load_arm("es165d")
+    q = arm.random_configurations(1000, np.random.default_rng(SEED))
+    symbolic = symbolic_poses(q)
+    pinocchio = np.array([arm.fk(row) for row in q])
+    rotations = symbolic[:, :3, :3]
+    identity = rotations @ rotations.transpose(0, 2, 1) - np.eye(3)
+    start, goal = (arm.fk(pose)[:3, 3] for pose in (master_start(), master_goal()))
+    return Result(
+        obtained={
+            "product_is_dh": equal(symbolic_pose(), arm.symbolic_fk()),
+            "names": _names_entries(REGISTRY.printed("xue.eq08")["matrix"]),
+            "formula": float(abs(printed_product(q[:_FORMULA]) - pinocchio[:_FORMULA]).max()),
+            "pinocchio": float(abs(symbolic - pinocchio).max()),
+            "kernel": float(abs(symbolic - arm.fk(q)).max()),
+            "orthonormal": float(abs(identity).max()),
+            "tcp_start": start.tolist(),
+            "tcp_goal": goal.tolist(),
+        },
+        caption=(
+            "The product that is printed, of the six printed matrices, agrees with Pinocchio "
+            f"and with the batch kernel on {len(q)} random configurations to "
+            f"{abs(symbolic - pinocchio).max():.1e}. The master's flange goes from "
+            f"({point(start)}) m to ({point(goal)}) m."
+        ),
+    )
+
+
+@memo()
+def symbolic_pose() -> sp.Matrix:
+    """T(q) as the product of the printed matrices (2)-(7)."""
+    return product([link_matrix(k) for k in LINKS])
+
+
+def _names_entries(matrix: list[list[str]]) -> bool:
+    """Whether twelve different names stand above the last row of a homogeneous transform."""
+    names = [cell for row in matrix[:3] for cell in row]
+    last = [sp.sympify(cell) for cell in matrix[3]]
+    return (
+        len(set(names)) == len(names) == 12
+        and all(name.replace("_", "").isalpha() for name in names)
+        and last == list(symbolic_pose().row(3))
+    )
+
+
+def symbolic_poses(q: np.ndarray) -> np.ndarray:
+    """The printed product evaluated at configurations (N, 6), shape (N, 4, 4)."""
+    variables = [joint_variable(k) for k in LINKS]
+    entries = sp.lambdify(variables, list(symbolic_pose()), "numpy", cse=True)(*q.T)
+    columns = [np.broadcast_to(entry, len(q)) for entry in entries]
+    return np.stack(columns, axis=1).reshape(-1, 4, 4)
+
+
+def printed_product(q: np.ndarray) -> np.ndarray:
+    """Right side of (8) at configurations (N, 6), (N, 4, 4); NaN if it asks for other factors."""
+    links = [sp.lambdify(joint_variable(k), link_matrix(k), "numpy") for k in LINKS]
+    formula = parse(REGISTRY.printed("xue.eq08")["formula"])
+    found = []
+    for row in q:
+        given = {f"T_{k - 1}{k}": links[k - 1](row[k - 1]) for k in LINKS}
+        try:
+            found.append(np.broadcast_to(formula.value(1, given), (4, 4)))
+        except (DataFileError, IndexError, ValueError):
+            found.append(np.full((4, 4), np.nan))
+    return np.array(found)
+
+
+def _largest_difference_to_pinocchio(k: int) -> float:
+    """Printed link transform against the placement of joint k in the model, over a turn."""
+    arm = load_arm("es165d")
+    data = arm.model.createData()
+    printed = sp.lambdify(joint_variable(k), link_matrix(k), "numpy")
+    largest = 0.0
+    for angle in np.linspace(-np.pi, np.pi, 37):
+        q = np.zeros(arm.nq)
+        q[k - 1] = angle
+        pin.forwardKinematics(arm.model, data, q)
+        largest = max(largest, float(abs(data.liMi[k].homogeneous - printed(angle)).max()))
+    return largest

@@ -1,0 +1,156 @@
+"""Figure 7 of `xue`: the flow of the whole method, from the transitions that runs take."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+
+from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
+from .....planning.descent.termination import StopReason
+from .....planning.plan import Plan
+from .....tracking import memo
+from .....view.transitions import transitions_figure
+from ...document import SEED, placed_slave
+from ...motions import attempt, master_plan, slave_obstacles
+from ...outcomes import starts
+from ...reading import BLOCK, Case, improved, nominal
+from ...studies.ablation import NAMED
+
+checks = partial(REGISTRY.checks, page="xue/planning")
+
+_STATES = {
+    "begin": (0.0, 5.0),
+    "master: descend the potential": (0.0, 4.0),
+    "master: toward the virtual point": (3.4, 4.0),
+    "master's path becomes a moving obstacle": (0.0, 3.0),
+    "slave: descend the potential": (0.0, 2.0),
+    "slave: toward the virtual point": (3.4, 2.0),
+    "both paths found": (0.0, 1.0),
+    "given up: trapped": (3.4, 0.6),
+    "given up: near an obstacle": (1.7, 0.0),
+    "given up: step limit": (3.4, 3.0),
+}
+_END = {
+    StopReason.REACHED: "both paths found",
+    StopReason.TRAPPED: "given up: trapped",
+    StopReason.NEAR_OBSTACLE: "given up: near an obstacle",
+    StopReason.STEP_LIMIT: "given up: step limit",
+}
+_SAME = 1e-9  # [m]
+#: Wider perturbations than those of Table 2 [rad], so that every branch is taken.
+_WIDTH, _RUNS = 0.6, 12
+_ROUND = 1.0 + 1e-6
+
+
+@checks(
+    "xue.fig07",
+    rules=[
+        Is("master_first", "the slave's planner meets the finished master path", value=True),
+        Is(
+            "only_when_still",
+            "an arm turns to the virtual point only where it stands still",
+            value=True,
+        ),
+        Is("arrives_without", "no run arrives while the virtual point acts", value=True),
+        NoOriginal("chart", "the content of the chart"),
+    ],
+)
+def flow_chart(assumed: Assumed) -> Result:
+    """States and transitions of the planner, counted over runs from widely perturbed starts."""
+    given = nominal()
+    planner = replace(given.planner, virtual_switching=assumed["virtual_switching"])
+    case = given._replace(planner=planner)
+    layouts = (
+        case.layout,
+        replace(case.layout, **NAMED["yawed"]),
+        replace(case.layout, window_opening_width=0.4, window_opening_height=0.35),
+    )
+    runs = [run for layout in layouts for run in _runs(case._replace(layout=layout))]
+    counts = Counter(pair for run in runs for pair in pairwise(_states_of(run)))
+    plans = [plan for run in runs for plan in run]
+    onsets = [(plan, k) for plan in plans for k in _onsets(plan)]
+    arrived = [plan for plan in plans if plan.reached]
+    still = sum(_stands_still(plan, k, planner.stuck_threshold) for plan, k in onsets)
+    return Result(
+        obtained={
+            "master_first": _master_first(case),
+            "only_when_still": still == len(onsets),
+            "arrives_without": not any(plan.active[-1] for plan in arrived),
+            "runs": len(runs),
+            "switched_on": len(onsets),
+            "transitions": len(counts),
+        },
+        table=pd.DataFrame([{"from": a, "to": b, "taken": n} for (a, b), n in counts.items()]),
+        caption=(
+            f"The flow that {len(runs)} runs of the code took in three windows, each arrow with "
+            "how often: the master is planned first, its path becomes a moving obstacle, then the "
+            f"slave is planned. The virtual point was switched on {len(onsets)} times, "
+            f"{still} of them where the arm stood still. The content of the printed chart is not "
+            "in the text edition, so it cannot be compared."
+        ),
+        alt="Flow chart: master, then slave, each with a side branch to the virtual point.",
+        figure=lambda: transitions_figure(_shown(counts), counts),
+    )
+
+
+def _master_first(case: Case) -> bool:
+    """Whether the moving obstacles of the slave follow the finished path of the master."""
+    obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.planner)
+    if obstacles is None:
+        return False
+    last = obstacles.cores[:, -1, 0]
+    follows = np.abs(last[:, np.newaxis] - plan.tcp).max(axis=2).min(axis=1)
+    return bool(len(obstacles.cores) > 1 and follows.max() < _SAME)
+
+
+@memo(64)
+def _runs(case: Case) -> tuple[tuple[Plan, ...], ...]:
+    """Whole runs from widely perturbed starts: the plan of the master, then that of the slave."""
+    slave, plan = placed_slave(case.layout), master_plan(case.layout, case.planner)
+    obstacles = slave_obstacles(case)
+    if plan is None or obstacles is None:
+        return ()
+    settings = improved(case.planner, case.layout.window_centre, slave.goal)
+    begin = starts(case, _WIDTH, _RUNS, np.random.default_rng(SEED))
+    made = (attempt(slave, start, obstacles, settings) for start in begin)
+    return tuple((plan, found) if found is not None else (plan,) for found in made)
+
+
+def _states_of(run: tuple[Plan, ...]) -> list[str]:
+    """States of a whole run in order: master, hand-over, slave."""
+    route = ["begin", *_route("master", run[0])]
+    if len(run) == 2:
+        route += ["master's path becomes a moving obstacle", *_route("slave", run[1])]
+        route.append(_END[run[1].reason])
+    return route
+
+
+def _route(name: str, plan: Plan) -> list[str]:
+    """States of one plan in order."""
+    states = (f"{name}: descend the potential", f"{name}: toward the virtual point")
+    changes = np.flatnonzero(np.diff(plan.active))
+    return [states[int(plan.active[0])], *(states[int(plan.active[k + 1])] for k in changes)]
+
+
+def _onsets(plan: Plan) -> list[int]:
+    """Steps at which the virtual point is switched on."""
+    before = np.concatenate([[False], plan.active[:-1]])
+    return np.flatnonzero(plan.active & ~before).tolist()
+
+
+def _stands_still(plan: Plan, step: int, threshold: float) -> bool:
+    """Whether the mean configurations of the two blocks of steps before differ by less."""
+    if step < 2 * BLOCK - 1:
+        return False
+    last, before = plan.path[step - BLOCK + 1 : step + 1], plan.path[: step - BLOCK + 1][-BLOCK:]
+    return bool(abs(last.mean(axis=0) - before.mean(axis=0)).max() < _ROUND * threshold)
+
+
+def _shown(counts: Counter[tuple[str, str]]) -> dict[str, tuple[float, float]]:
+    used = {name for pair in counts for name in pair}
+    return {name: place for name, place in _STATES.items() if name in used}

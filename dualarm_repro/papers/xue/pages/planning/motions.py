@@ -1,0 +1,387 @@
+"""Figures 8-11 of `xue` and the statements about them: both motions around the window."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....planning.field.control_points import end_effector
+from .....planning.plan import Plan
+from .....planning.trials.encounter import instants, tips_apart
+from .....scene import JointPath
+from .....tracking import memo
+from .....view.style import MASTER, SLAVE
+from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
+from ...document import Layout, gains, placed_master
+from ...motions import (
+    flange_to_window,
+    master_plan,
+    master_track,
+    master_undisturbed,
+    points_to_window,
+    slave_plan,
+    slave_undisturbed,
+)
+from ...reading import Case, PlannerChoice
+from .scenes import avoiding_scene, colliding_scene, master_scene
+
+checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
+
+NOTHING = "In this arrangement there are not two motions to compare."
+_NEAR = 1.4  # of the tracks in space, around the window [m]
+_VIEW = {"elev": 24, "azim": -70}
+
+_MASTER_RULES = (
+    Is("reached", "the master arrives at the printed goal", value=True),
+    Bounded("distance", "smallest distance of its control points to a bar [m]", low=1e-6),
+    Is("needed", "without repulsion it would come within d_0 of a bar", value=True),
+)
+_COLLIDING_RULES = (
+    Bounded("flange_window", "distance of the undisturbed slave to a bar [m]", high=0),
+    Bounded(
+        "beyond_meeting",
+        "its distance to the master at one instant, less that of a meeting [m]",
+        high=0,
+    ),
+)
+_AVOIDING_RULES = (
+    Is("reached", "the slave arrives at End", value=True),
+    Bounded("flange_window", "smallest distance of its end effector to a bar [m]", low=1e-6),
+    Bounded(
+        "beyond_meeting",
+        "distance of the end effectors until both rest, less that of a meeting [m]",
+        low=1e-6,
+    ),
+)
+
+
+@checks("xue.fig08", rules=_MASTER_RULES)
+def master_past_window(assumed: Assumed) -> Result:
+    """The master by the improved method, and undisturbed."""
+    layout, planner = Layout.of(assumed), PlannerChoice.of(assumed)
+    plan = master_plan(layout, planner)
+    found = _master_numbers(layout, planner, plan)
+    if plan is None:
+        return Result(found, "The printed start of the master would touch a bar.")
+    return Result(
+        obtained=found,
+        table=plan.to_frame().reset_index(),
+        caption=(
+            f"The master arrives after {plan.steps} steps. Its nearest control point keeps "
+            f"{found['distance']:.3f} m from the bars; without repulsion it would come to "
+            f"{found['distance_undisturbed']:.3f} m, so the potential "
+            + ("does the avoiding." if found["needed"] else "has nothing to avoid here.")
+        ),
+        alt=(
+            "Track of the master's end effector in space past a window frame of four bars, bent "
+            "away from the dashed track it would take without repulsion."
+        ),
+        figure=lambda: _master_figure(layout, planner, plan),
+        scene=lambda: master_scene(layout, plan),
+    )
+
+
+@checks("xue.claim_master_ok", rules=_MASTER_RULES)
+def master_avoids(assumed: Assumed) -> Result:
+    """Distance of every control point of the master to every bar."""
+    layout, planner = Layout.of(assumed), PlannerChoice.of(assumed)
+    plan = master_plan(layout, planner)
+    found = _master_numbers(layout, planner, plan)
+    if plan is None:
+        return Result(found, "The printed start of the master would touch a bar.")
+    undisturbed = master_undisturbed(layout, planner)
+    curves = {
+        "improved method": points_to_window(plan, layout, planner.control_points),
+        "attraction alone": points_to_window(undisturbed, layout, planner.control_points),
+    }
+    return Result(
+        obtained=found,
+        caption=(
+            f"All control points of the master stay {found['distance']:.3f} m or more from the "
+            f"bars, {found['distance_undisturbed']:.3f} m without repulsion. The virtual point "
+            f"acted {plan.activations} times. Of the real robot's joint limits the start and "
+            f"{found['beyond_limits']:.0%} of the path are outside."
+        ),
+        alt="Distance of the master to the window over the steps, with and without repulsion.",
+        figure=lambda: distances_figure(curves, {"range d_0": gains()["d_0"]}),
+    )
+
+
+@checks("xue.fig09", rules=_COLLIDING_RULES)
+def slave_collides(assumed: Assumed) -> Result:
+    """The slave under attraction alone beside the planned master."""
+    replay, found = _colliding(assumed)
+    if replay is None:
+        return Result(found, NOTHING)
+    return Result(
+        obtained=found,
+        caption=(
+            "Attracted only, the slave's end effector "
+            + _in_bar(found["flange_window"])
+            + f" and comes within {found['flanges_apart']:.3f} m of the master's at step "
+            f"{found['nearest_step']} of {found['steps']}, "
+            + (
+                "on its arrival at End."
+                if found["nearest_step"] == found["steps"]
+                else "both moving at the same time."
+            )
+        ),
+        alt=(
+            "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
+            "the window and crosses the master's dashed track, with circles at both places."
+        ),
+        figure=lambda: _colliding_figure(replay),
+        scene=lambda: colliding_scene(replay.case.layout, replay.slave, replay.track),
+    )
+
+
+@checks("xue.claim_slave_collides_without", rules=_COLLIDING_RULES)
+def slave_collides_without(assumed: Assumed) -> Result:
+    """Where the undisturbed track enters a bar and where it meets the master."""
+    replay, found = _colliding(assumed)
+    if replay is None:
+        return Result(found, NOTHING)
+    inside = flange_to_window(replay.slave, replay.case.layout) <= 0.0
+    steps = np.flatnonzero(inside).tolist()
+    return Result(
+        obtained={**found, "steps_inside_bar": steps},
+        caption=(
+            "Without avoidance the end effector "
+            + _in_bar(found["flange_window"])
+            + (f" (steps {steps[0]} to {steps[-1]})" if steps else "")
+            + "; its smallest distance to the master's on the way is "
+            f"{found['flanges_apart']:.3f} m."
+        ),
+    )
+
+
+@checks("xue.fig10", rules=_AVOIDING_RULES)
+def avoiding_from_above(assumed: Assumed) -> Result:
+    """Both avoiding tracks seen along the vertical."""
+    replay, found = _avoiding(assumed)
+    if replay is None:
+        return Result(found, NOTHING)
+    return Result(
+        obtained=found,
+        table=_track_table(replay),
+        caption=f"Seen from above: {_arrival(replay, found)}",
+        alt=(
+            "Plan view of a window, of the master's track and of the slave's track around its bars."
+        ),
+        figure=lambda: top_view_figure(
+            replay.case.layout.window(), _avoiding_tracks(replay), _marks(replay.case.layout)
+        ),
+    )
+
+
+@checks("xue.fig11", rules=_AVOIDING_RULES)
+def avoiding_in_space(assumed: Assumed) -> Result:
+    """Both avoiding tracks in space."""
+    replay, found = _avoiding(assumed)
+    if replay is None:
+        return Result(found, NOTHING)
+    return Result(
+        obtained=found,
+        table=_track_table(replay),
+        caption=f"With the improved method {_arrival(replay, found)}",
+        alt=(
+            "Tracks of both end effectors in space: the slave's runs from Start through the "
+            "opening of the window to End, clear of the bars and of the master's track."
+        ),
+        figure=lambda: tracks_figure(
+            replay.case.layout.window(),
+            _avoiding_tracks(replay),
+            _marks(replay.case.layout),
+            near=_NEAR,
+            **_VIEW,
+        ),
+        scene=lambda: avoiding_scene(replay.case.layout, replay.slave, replay.track),
+    )
+
+
+@checks(
+    "xue.claim_slave_ok",
+    rules=[
+        *_AVOIDING_RULES,
+        Bounded("points", "smallest distance of its control points to anything [m]", low=1e-6),
+    ],
+)
+def slave_avoids(assumed: Assumed) -> Result:
+    """Smallest distances of the slave's end effector and control points until both arms rest."""
+    replay, found = _avoiding(assumed)
+    if replay is None:
+        return Result({**found, "points": None}, NOTHING)
+    case = replay.case
+    found["points"] = float(replay.slave.clearance.min())
+    undisturbed = replay_of(case, slave_undisturbed(case.layout, case.planner))
+    curves = {
+        "window, improved": _held(flange_to_window(replay.slave, case.layout), replay),
+        "master, improved": tips_apart(replay.slave, replay.master, replay.track),
+        "window, attraction alone": _held(flange_to_window(undisturbed.slave, case.layout), replay),
+        "master, attraction alone": tips_apart(undisturbed.slave, replay.master, replay.track),
+    }
+    return Result(
+        obtained=found,
+        caption=(
+            f"At the end effector, {_arrival(replay, found)} No control point comes closer than "
+            f"{found['points']:.3f} m to window or master. What whole links do is another question."
+        ),
+        alt=(
+            "Distances of the slave's end effector to window and master over the steps, two "
+            "methods."
+        ),
+        figure=lambda: distances_figure(
+            curves, {"contact": 0.0, "meeting": assumed["meeting_distance"]}
+        ),
+    )
+
+
+def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
+    """The undisturbed slave beside the master, and how they meet while it moves."""
+    case, meeting = Case.of(assumed), assumed["meeting_distance"]
+    replay = replay_of(case, slave_undisturbed(case.layout, case.planner))
+    return replay, _meeting_numbers(replay, meeting, moving=True)
+
+
+def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
+    """The improved slave beside the master, and how they meet until both rest."""
+    case, meeting = Case.of(assumed), assumed["meeting_distance"]
+    replay = replay_of(case, slave_plan(case))
+    return replay, _meeting_numbers(replay, meeting, moving=False)
+
+
+class Replay(NamedTuple):
+    """A motion of the slave beside the master."""
+
+    case: Case
+    slave: Plan
+    track: JointPath
+    master: Any
+
+
+@memo(512)
+def replay_of(case: Case, slave: Plan | None) -> Replay | None:
+    """The slave's plan and the master's track, or None where one of them is missing."""
+    track = master_track(case)
+    if slave is None or track is None:
+        return None
+    return Replay(case, slave, track, placed_master(case.layout))
+
+
+def _master_numbers(layout: Layout, planner: PlannerChoice, plan: Plan | None) -> dict[str, Any]:
+    if plan is None:
+        return {"reached": False, "distance": None, "needed": False}
+    undisturbed = points_to_window(
+        master_undisturbed(layout, planner), layout, planner.control_points
+    ).min()
+    inside = plan.placed.arm.within_limits(plan.path, 1e-9)
+    return {
+        "reached": plan.reached,
+        "steps": plan.steps,
+        "distance": float(points_to_window(plan, layout, planner.control_points).min()),
+        "distance_undisturbed": float(undisturbed),
+        "needed": bool(undisturbed < gains()["d_0"]),
+        "activations": plan.activations,
+        "beyond_limits": float(1.0 - np.mean(inside)),
+    }
+
+
+def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> dict[str, Any]:
+    """Distances to bars and master until both arms rest, or while the slave is moving."""
+    if replay is None:
+        nothing = dict.fromkeys(("flange_window", "beyond_meeting"))
+        return {"reached": False, "enters_bar": False, "meets_master": False, **nothing}
+    window = float(flange_to_window(replay.slave, replay.case.layout).min())
+    apart = tips_apart(replay.slave, replay.master, replay.track, moving=moving)
+    return {
+        "reached": replay.slave.reached,
+        "reason": str(replay.slave.reason),
+        "steps": replay.slave.steps,
+        "activations": replay.slave.activations,
+        "flange_window": window,
+        "enters_bar": window <= 0.0,
+        "flanges_apart": float(apart.min()),
+        "beyond_meeting": float(apart.min() - meeting),
+        "nearest_step": int(apart.argmin()),
+        "meets_master": bool(apart.min() <= meeting),
+    }
+
+
+def _in_bar(window: float) -> str:
+    if window <= 0.0:
+        return f"passes {100 * -window:.1f} cm deep through a bar"
+    return f"misses the bars by {100 * window:.1f} cm"
+
+
+def _arrival(replay: Replay, found: dict[str, Any]) -> str:
+    if not found["reached"]:
+        return f"the slave does not arrive ({found['reason']})."
+    return (
+        f"the slave arrives after {found['steps']} steps. Its end effector keeps "
+        f"{found['flange_window']:.3f} m from the bars and {found['flanges_apart']:.3f} m from the "
+        f"master's, until both arms rest; the virtual point acted {found['activations']} times."
+    )
+
+
+def _held(values: np.ndarray, replay: Replay) -> np.ndarray:
+    """A quantity of the slave until both arms rest."""
+    return values[np.minimum(instants(replay.slave, replay.track), len(values) - 1)]
+
+
+def _marks(layout: Layout) -> dict[str, np.ndarray]:
+    start, end = layout.slave_points()
+    return {"Start": start, "End": end, "virtual point": layout.window_centre}
+
+
+def _master_track_points(replay: Replay) -> np.ndarray:
+    return end_effector(replay.master, replay.track.configurations)
+
+
+def _avoiding_tracks(replay: Replay) -> list[Track]:
+    return [
+        Track("master", _master_track_points(replay), MASTER, "--"),
+        Track("slave", replay.slave.tcp, SLAVE),
+    ]
+
+
+def _track_table(replay: Replay) -> pd.DataFrame:
+    times = instants(replay.slave, replay.track)
+    slave = replay.slave.tcp[np.minimum(times, replay.slave.steps)]
+    master = end_effector(replay.master, replay.track.at(times))
+    columns = {
+        f"{name}_{axis}_m": points[:, k]
+        for name, points in (("master", master), ("slave", slave))
+        for k, axis in enumerate("xyz")
+    }
+    return pd.DataFrame({"step": times, **columns})
+
+
+def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:
+    tracks = [
+        Track("attraction alone", master_undisturbed(layout, planner).tcp, "0.5", ":"),
+        Track("improved method", plan.tcp, MASTER),
+    ]
+    return tracks_figure(
+        layout.window(), tracks, {"start": plan.tcp[0], "goal": plan.tcp[-1]}, elev=18, azim=-40
+    )
+
+
+def _colliding_figure(replay: Replay) -> Any:
+    window = flange_to_window(replay.slave, replay.case.layout)
+    apart = tips_apart(replay.slave, replay.master, replay.track, moving=True)
+    contacts = {
+        "hits the window": replay.slave.tcp[window.argmin()],
+        "meets the master": replay.slave.tcp[apart.argmin()],
+    }
+    return tracks_figure(
+        replay.case.layout.window(),
+        _avoiding_tracks(replay),
+        _marks(replay.case.layout),
+        contacts,
+        near=_NEAR,
+        **_VIEW,
+    )

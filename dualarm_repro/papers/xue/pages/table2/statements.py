@@ -1,0 +1,246 @@
+"""What else `xue` says of its method: times, where a motion ends, no inverse kinematics."""
+
+from __future__ import annotations
+
+import copy
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
+from .....ledger.formula import parse
+from .....planning.descent.apf import plan_apf
+from .....planning.descent.batch import plan_batch
+from .....planning.descent.termination import StopReason
+from .....scene import PlacedArm
+from .....tracking import memo
+from ...document import (
+    METHODS_OF_TABLE_2,
+    assumption,
+    placed_master,
+    placed_slave,
+    posture,
+    printed_vector,
+    text_counts,
+)
+from ...motions import slave_obstacles, window_obstacles
+from ...outcomes import TRIALS, VARIANTS, run_variant, starts, variant_of
+from ...reading import POSITION_TOLERANCE, Case, improved, nominal
+from ..potentials.printed_field import attraction
+from .table import Trials, assumed_trials
+
+checks = partial(REGISTRY.checks, page="xue/table2")
+
+_REPEATS = 3  # of a measured time
+#: Printed start and goal of each arm: angles under ``q`` or a position under ``position``.
+_ENDS = {
+    "master": ("claim_master_start", "claim_master_goal"),
+    "slave": ("claim_slave_start", "claim_slave_end"),
+}
+
+
+@checks(
+    "xue.claim_times",
+    rules=[
+        Bounded(
+            "step_ratio",
+            "steps of the method with the longer printed time over those of the other",
+            low=1,
+        ),
+    ],
+    samples=32,
+)
+def times(assumed: Assumed) -> Result:
+    """Steps of both methods, which do not depend on the machine, and times measured here."""
+    trials, timed = assumed_trials(assumed), assumed["timed_runs"]
+    printed = printed_seconds(assumed["table2_exchange"])
+    longer, shorter = sorted(printed, key=printed.get, reverse=True)
+    steps = _steps(trials, timed)
+    ratio = None if not (steps[longer] and steps[shorter]) else steps[longer] / steps[shorter]
+    return Result(
+        obtained={
+            "mean_steps": steps,
+            "step_ratio": ratio,
+            "printed_ratio": printed[longer] / printed[shorter],
+            "longer": longer,
+        },
+        measured={} if trials is None else _milliseconds(Case.of(assumed), assumed),
+        caption=(
+            f"With the labels read so that the {longer} method takes the longer, the printed times "
+            f"have a ratio of {printed[longer] / printed[shorter]:.2f}. Over {timed} runs the "
+            f"traditional method makes {_number(steps['traditional'])} steps on average and the "
+            f"improved one {_number(steps['improved'])}. Seconds depend on a computer that is not "
+            "named; the steps, which can be counted, carry the order. A run that ends in a trap "
+            "adds the steps of the trap detection, so that the order also follows from what is "
+            "counted as a planning time."
+        ),
+    )
+
+
+def printed_seconds(exchange: str) -> dict[str, float]:
+    """The printed mean times by method; with the rows exchanged if only their labels are wrong."""
+    printed = REGISTRY.printed("xue.claim_times")
+    names = METHODS_OF_TABLE_2 if exchange == "trap_column" else METHODS_OF_TABLE_2[::-1]
+    return {name: float(printed[row]) for name, row in zip(names, METHODS_OF_TABLE_2, strict=True)}
+
+
+def _steps(trials: Trials | None, timed: str) -> dict[str, float | None]:
+    """Mean steps per method; None where there is no run to take them of."""
+    field = "steps_reached" if timed == "successful" else "steps_all"
+    if trials is None:
+        return dict.fromkeys(METHODS_OF_TABLE_2)
+    found = {name: getattr(one, field) for name, one in trials._asdict().items()}
+    return {name: None if np.isnan(steps) else steps for name, steps in found.items()}
+
+
+def _milliseconds(case: Case, assumed: Assumed) -> dict[str, float]:
+    """Mean time per run, planning only, best of some repeats [ms]."""
+    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
+    rng = np.random.default_rng(assumed["trial_seed"])
+    begin = starts(case, assumed["trial_perturbation"], TRIALS, rng)
+    found = {}
+    for name in METHODS_OF_TABLE_2:
+        settings, best = VARIANTS[name].settings(case), np.inf
+        for _ in range(_REPEATS):
+            since = perf_counter()
+            plan_batch(placed, begin, placed.goal, obstacles, settings)
+            best = min(best, perf_counter() - since)
+        found[f"ms_per_run_{name}"] = 1e3 * best / TRIALS
+    return found
+
+
+def _number(value: float | None) -> str:
+    return "no" if value is None else f"{value:.0f}"
+
+
+@checks(
+    "xue.claim_stop_zero",
+    rules=[
+        Residual("at_goal", "potential at a goal out of every obstacle's range", high=1e-9),
+        Bounded(
+            "printed_traps",
+            "runs that stand still in a local minimum, by the document itself",
+            low=1,
+            role=Role.CONTRADICTS,
+        ),
+        Bounded(
+            "off_goal",
+            "attraction, by (9) as printed, as near to the goal as no trap is",
+            low=1e-9,
+            role=Role.CONTRADICTS,
+        ),
+    ],
+)
+def stops_at_zero(assumed: Assumed) -> Result:
+    """The potential where runs end: at the goal and in a trap."""
+    names = ("classical_method", "trial_perturbation", "trial_seed")
+    at_goal, at_trap, gradient = _trap(nominal(), *(assumption(name) for name in names))
+    near = attraction(np.zeros(3), np.array([POSITION_TOLERANCE, 0.0, 0.0]))
+    traps = max(text_counts().values())
+    shown = "no run is trapped" if at_trap is None else (
+        f"a trapped run stands still at a potential of {at_trap:.2f}, where the gradient is "
+        f"{gradient:.0e}"
+    )  # fmt: skip
+    return Result(
+        obtained={
+            "printed_traps": traps,
+            "off_goal": near,
+            "at_goal": at_goal,
+            "at_trap": at_trap,
+            "gradient": gradient,
+        },
+        caption=(
+            f"At the slave's goal the total potential is {at_goal:.1e}. Yet {traps} of the printed "
+            "runs stand still away from it, where (9) alone is positive: at least "
+            f"{near:.1e} beyond the distance of {POSITION_TOLERANCE:g} m at which a run arrives. "
+            f"In the arrangement shown {shown}. What ends a motion is a vanishing gradient, as the "
+            "document itself says of its local minima, not potential 0."
+        ),
+    )
+
+
+@memo()
+def _trap(
+    case: Case, reading: str, half_width: float, seed: int
+) -> tuple[float, float | None, float | None]:
+    """U at the goal, and U and |dU/dq| at the first trap among the trials."""
+    made, name = VARIANTS[variant_of(reading)].problem(case), variant_of(reading)
+    runs = run_variant(case, name, starts(case, half_width, TRIALS, np.random.default_rng(seed)))
+    rest = len(made.obstacles.cores) - 1
+    at_goal = float(made.field.value(made.goal, rest))
+    stuck = np.flatnonzero(runs.reason == StopReason.TRAPPED)
+    if not len(stuck):
+        return at_goal, None, None
+    first = stuck[runs.gradient[stuck].argmin()]
+    return at_goal, float(made.field.value(runs.last[first], rest)), float(runs.gradient[first])
+
+
+@checks(
+    "xue.claim_no_ik",
+    rules=[
+        Is("calls.master", "calls in the run of the master from what is printed", value=0),
+        Is(
+            "needs_goal_angles",
+            "(13), as printed, needs the goal angles",
+            value=True,
+            role=Role.CONTRADICTS,
+        ),
+        Bounded(
+            "calls.slave",
+            "calls in the run of the slave from what is printed",
+            low=1,
+            role=Role.CONTRADICTS,
+        ),
+    ],
+)
+def without_inverse_kinematics(assumed: Assumed) -> Result:
+    """Calls of the closed-form inverse in whole runs, from the printed start and goal on."""
+    case = nominal()
+    around = {
+        "master": (placed_master(case.layout), window_obstacles(case.layout)),
+        "slave": (placed_slave(case.layout), slave_obstacles(case)),
+    }
+    calls, steps = {}, {}
+    for name, (arm, obstacles) in around.items():
+        counted, counter = _counting(arm)
+        ends = [_angles(counted, item, case.layout.slave_postures) for item in _ENDS[name]]
+        settings = improved(case.planner, case.layout.window_centre, ends[1])
+        plan = plan_apf(counted, *ends, obstacles, settings)
+        calls[name], steps[name] = len(counter), plan.steps
+    return Result(
+        obtained={"calls": calls, "steps": steps, "needs_goal_angles": needs_goal_angles()},
+        caption=(
+            f"(13) {'needs' if needs_goal_angles() else 'does not need'} the goal angles. In the "
+            f"run of the master, whose start and goal are printed as angles, inverse kinematics is "
+            f"called {calls['master']} times in {steps['master']} steps; in that of the slave, for "
+            f"which positions are printed, {calls['slave']} times, all of them before the first of "
+            f"its {steps['slave']} steps: no step needs it, yet without it the slave has no goal."
+        ),
+    )
+
+
+def needs_goal_angles() -> bool:
+    """Whether the right side of (13) holds the angles of the goal."""
+    formula = parse(REGISTRY.printed("xue.eq13")["formula"])
+    return any(str(symbol).startswith("theta_g") for symbol in formula.sides[-1].free_symbols)
+
+
+def _angles(placed: PlacedArm, item: str, choice: str) -> np.ndarray:
+    """Angles of a printed start or goal; a printed position takes inverse kinematics."""
+    if "q" in REGISTRY.printed(f"xue.{item}"):
+        return printed_vector(item, "q")
+    target = printed_vector(item, "position")
+    return posture(placed.arm, target - placed.placement.translation, choice)
+
+
+def _counting(placed: PlacedArm) -> tuple[PlacedArm, list[None]]:
+    """The arm with a closed-form inverse that notes every call."""
+    arm, calls = copy.copy(placed.arm), []
+
+    def noted(*args: object, **options: object) -> np.ndarray:
+        calls.append(None)
+        return placed.arm.ik_branches(*args, **options)
+
+    arm.ik_branches = noted
+    return PlacedArm(placed.name, arm, placed.placement, placed.start, placed.goal), calls

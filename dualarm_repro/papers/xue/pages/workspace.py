@@ -1,0 +1,237 @@
+"""Figures 5 and 6 of `xue` and what section 3.2 says about the workspaces."""
+
+from __future__ import annotations
+
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+import pandas as pd
+
+from ....arms import Arm
+from ....arms.occupancy import Occupancy, occupancy, rotation_volumes
+from ....arms.overlap import Overlap, overlap
+from ....arms.workspace import extents, sample_workspace, voxel_volume
+from ....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
+from ....tracking import memo
+from ....view.clouds import cloud_figure, volume_figure
+from ....view.scene3d import Scene3D
+from ....view.style import MASTER, SLAVE
+from ..document import (
+    SEED,
+    arm_in_use,
+    base_placements,
+    master_start,
+    reach,
+    robot,
+    workspace_points,
+)
+
+checks = partial(REGISTRY.checks, page="xue/workspace")
+
+CELLS = (0.05, 0.03, 0.02, 0.015)
+VOXELS = (0.3, 0.2, 0.1, 0.05)
+_CELL = 0.02  # of the occupancy behind the overlap
+_TEST_POINTS = 100_000
+_REPEATS = 5
+_ROUND_OFF = 1e-9  # [m]
+_SHOWN = 4000  # points of a cloud in the 3-D scene
+
+
+@memo()
+def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
+    """Flange positions of random configurations (points, 3) [m]."""
+    return sample_workspace(arm, points, np.random.default_rng(seed))
+
+
+@memo()
+def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
+    """Overlap of master and mirrored slave."""
+    master = arm_in_use(joint_ranges, upper_arm)
+    left, right = base_placements(distance)
+    slave = _slave(master)
+    maps = (_reached(master), _reached(slave))
+    return overlap((master, left), (slave, right), seed=SEED, points=_TEST_POINTS, maps=maps)
+
+
+@memo()
+def _reached(arm: Arm) -> Occupancy:
+    return occupancy(arm, _CELL, np.random.default_rng(SEED))
+
+
+@memo()
+def _slave(master: Arm) -> Arm:
+    return master.mirrored()
+
+
+@checks(
+    "xue.fig05",
+    samples=32,
+    rules=[
+        Is("points", "number of random points", to="points"),
+        Bounded(
+            "beyond_reach",
+            "points farther than the arm of matrices (2)-(7) reaches without joint limits",
+            high=0,
+        ),
+        NoOriginal("extents", "the joint ranges or the extents of the cloud"),
+    ],
+)
+def master_cloud(assumed: Assumed) -> Result:
+    """Cloud of the master, its extents, and its volume two ways."""
+    arm = arm_in_use(assumed["joint_ranges"], assumed["upper_arm"])
+    points = cloud(arm, workspace_points())
+    size = extents(points)
+    body = rotation_volumes(arm, CELLS, SEED)
+    voxels = voxel_volume(points, VOXELS)
+    farthest = np.linalg.norm(points, axis=1)
+    below = float(arm.fk(master_start())[2, 3] - size.lower[2])
+    table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
+    seconds = _time_per_cloud(arm)
+    return Result(
+        obtained={
+            "points": len(points),
+            "lower": size.lower.tolist(),
+            "upper": size.upper.tolist(),
+            "farthest": size.distance[1],
+            "beyond_reach": int(np.count_nonzero(farthest > reach("matrices") + _ROUND_OFF)),
+            "start_above_lowest": below,
+            "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
+            "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
+        },
+        measured={
+            "time per sample [ns]": 1e9 * seconds / workspace_points(),
+            "time for the cloud [ms]": 1e3 * seconds,
+        },
+        table=table,
+        caption=(
+            f"{len(points)} random configurations reach x from {size.lower[0]:.2f} to "
+            f"{size.upper[0]:.2f}, y from {size.lower[1]:.2f} to {size.upper[1]:.2f} and z from "
+            f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from "
+            f"the base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting "
+            f"voxels of the cloud gives anything from {voxels[-1].volume:.0f} to "
+            f"{voxels[0].volume:.0f} m^3, depending on their size. The printed start of the master "
+            + (
+                f"lies {-below:.2f} m below the lowest point of this cloud. "
+                if below < 0.0
+                else "is no lower than this cloud. "
+            )
+            + "Neither joint ranges nor extents are printed to compare with."
+        ),
+        alt=(
+            "Scatter of the flange positions of one arm in three dimensions, a body of rotation "
+            "about the vertical axis; beside it its half section, and volume over cell size."
+        ),
+        figure=lambda: volume_figure(points, body, voxels),
+    )
+
+
+@checks("xue.claim_mc_points", rules=[Adopts("points", "random points used", to="points")])
+def monte_carlo_points(assumed: Assumed) -> Result:
+    """The cloud of Fig. 5 has the printed number of points."""
+    points = len(cloud(arm_in_use("bast165", robot("matrices").joints[2].a), workspace_points()))
+    return Result(
+        obtained={"points": points},
+        caption=f"The cloud of Fig. 5 is drawn from {points} random configurations, as printed.",
+    )
+
+
+@checks(
+    "xue.fig06",
+    rules=[
+        Bounded("share_low", "lower 95 % bound of the share inside the other", low="resolved"),
+        Bounded("share_high", "upper 95 % bound of that share", high="not_whole"),
+    ],
+    samples=32,
+)
+def both_clouds(assumed: Assumed) -> Result:
+    """Two independent clouds and the share of each inside the workspace of the other arm."""
+    ranges, upper_arm = assumed["joint_ranges"], assumed["upper_arm"]
+    distance, count = assumed["base_distance"], int(assumed["cloud_points"])
+    master = arm_in_use(ranges, upper_arm)
+    slave = _slave(master)
+    left, right = base_placements(distance)
+    common = common_workspace(ranges, upper_arm, distance)
+    shares = (common.first_in_second, common.second_in_first)
+
+    def clouds() -> dict[str, np.ndarray]:
+        return {
+            "master": cloud(master, count, SEED) + left.translation,
+            "slave": cloud(slave, count, SEED + 1) + right.translation,
+        }
+
+    def scene() -> Scene3D:
+        made = Scene3D(
+            f"Both arms at the printed start and {_SHOWN} points of either workspace.",
+            camera=(7.5, -3.5, 3.0),
+        )
+        made.add_arm("master", master, master_start(), left, MASTER)
+        made.add_arm("slave", slave, -master_start(), right, SLAVE)
+        for (name, points), color in zip(clouds().items(), (MASTER, SLAVE), strict=True):
+            made.add_points(f"{name} cloud", points[:_SHOWN], color)
+        return made
+
+    return Result(
+        obtained={
+            "points_per_arm": count,
+            "master_in_slave": shares[0].value,
+            "slave_in_master": shares[1].value,
+            "share_low": min(share.low for share in shares),
+            "share_high": max(share.high for share in shares),
+        },
+        table=pd.DataFrame(
+            [
+                {"cloud": name, "share": s.value, "low": s.low, "high": s.high}
+                for name, s in zip(("master", "slave"), shares, strict=True)
+            ]
+        ),
+        caption=(
+            f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud "
+            f"lies in the slave's workspace (95 % interval {shares[0].low:.1%} to "
+            f"{shares[0].high:.1%}) and {shares[1].value:.1%} of the slave's in the "
+            "master's"
+            + (": the clouds overlap in part." if min(shares[0].low, shares[1].low) > 0.0 else ".")
+        ),
+        alt="Point clouds of two arms from above and from the front, overlapping in the middle.",
+        figure=lambda: cloud_figure(clouds(), (MASTER, SLAVE)),
+        scene=scene,
+    )
+
+
+@checks(
+    "xue.claim_overlap",
+    rules=[
+        Bounded("share_low", "lower 95 % bound of the smaller share", low="resolved"),
+        Bounded("share_high", "no workspace lies wholly inside the other", high="not_whole"),
+    ],
+    samples=64,
+)
+def partial_overlap(assumed: Assumed) -> Result:
+    """Volume common to both workspaces with its interval."""
+    distance = assumed["base_distance"]
+    common = common_workspace(assumed["joint_ranges"], assumed["upper_arm"], distance)
+    volume = common.volume
+    return Result(
+        obtained={
+            "volume": volume.value,
+            "volume_low": volume.low,
+            "volume_high": volume.high,
+            "share_low": min(common.first_in_second.low, common.second_in_first.low),
+            "share_high": max(common.first_in_second.high, common.second_in_first.high),
+        },
+        caption=(
+            f"With the bases {distance:g} m apart the workspaces share {volume.value:.2f} m^3 "
+            f"(95 % interval {volume.low:.2f} to {volume.high:.2f})"
+            + (", so the arms can collide." if volume.low > 0.0 else ".")
+        ),
+    )
+
+
+def _time_per_cloud(arm: Arm) -> float:
+    """Median time of one cloud on one core [s]."""
+    times = []
+    for seed in range(_REPEATS + 1):
+        start = perf_counter()
+        sample_workspace(arm, workspace_points(), np.random.default_rng(seed))
+        times.append(perf_counter() - start)
+    return float(np.median(times[1:]))

@@ -1,0 +1,192 @@
+"""The layout lottery: random arrangements in which Fig. 9 holds, and what both methods do there.
+
+Bases, window and its opening are not printed. One arrangement can be found for nearly any outcome
+of Table 2; the share of arrangements that show it says what the printed facts alone imply."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+
+from ....ledger import REGISTRY, Study
+from ....ledger.assumptions import Chosen
+from ....planning.trials.encounter import tips_apart
+from ..document import Layout, assumption, placed_master, slave_end, slave_start
+from ..motions import (
+    attempt,
+    flange_to_window,
+    link_cores,
+    master_plan,
+    master_track,
+    master_undisturbed,
+    points_to_window,
+    slave_obstacles,
+    slave_plan,
+    slave_undisturbed,
+    smallest_cores,
+)
+from ..outcomes import DESCENTS, TRIALS, VARIANTS, outcomes, starts
+from ..reading import KEPT, Case, nominal
+
+LAYOUTS = 1000
+#: Ranges of the uniform draws, metres; the rest of an arrangement is as assumed.
+RANGES: dict[str, Any] = {
+    "master_about_meeting": 0.3,
+    "slave_base_y": (-1.2, 2.0),
+    "smallest_base_distance": 0.5,
+    "window_about_midpoint": 0.45,
+    "opening_width": (0.4, 1.2),
+    "opening_height": (0.35, 1.2),
+    "bar": (0.05, 0.15),
+    "normals": ("x", "y", "chord"),
+    "undisturbed_steps": 100,
+}
+
+
+def draw(rng: np.random.Generator, given: Case) -> Layout:
+    """A random arrangement in which the arms are likely to meet.
+
+    An instant k is drawn; the master's base is put where its undisturbed end effector passes the
+    straight line from Start to End at that instant, and is then moved by up to
+    ``master_about_meeting`` along each axis. The slave stands beside it.
+    """
+    like = given.layout
+    master = master_undisturbed(like, given.planner).tcp - like.master_base
+    k = int(rng.integers(len(master)))
+    share = min(k / RANGES["undisturbed_steps"], 1.0)
+    about = RANGES["master_about_meeting"]
+    base = (
+        slave_start()
+        + share * (slave_end() - slave_start())
+        - master[k]
+        + rng.uniform(-about, about, 3)
+    )
+    beside = rng.uniform(*RANGES["slave_base_y"])
+    spread = RANGES["window_about_midpoint"]
+    centre = 0.5 * (slave_start() + slave_end()) + rng.uniform(-spread, spread, 3)
+    return replace(
+        like,
+        **dict(
+            zip(("master_base_x", "master_base_y", "master_base_z"), base.tolist(), strict=True)
+        ),
+        base_distance=float(base[1] - beside),
+        **{f"window_centre_{axis}": float(c) for axis, c in zip("xyz", centre, strict=True)},
+        window_normal=str(rng.choice(RANGES["normals"])),
+        window_opening_width=rng.uniform(*RANGES["opening_width"]),
+        window_opening_height=rng.uniform(*RANGES["opening_height"]),
+        window_bar=rng.uniform(*RANGES["bar"]),
+    )
+
+
+def fig_9_holds(case: Case, meeting: float) -> bool:
+    """Whether the undisturbed slave enters a bar and meets the master on its way past the window.
+
+    Its control points have to be outside the bars at Start and End, or nothing could be planned.
+    """
+    layout = case.layout
+    if layout.base_distance < RANGES["smallest_base_distance"]:
+        return False
+    slave = slave_undisturbed(layout, case.planner)
+    if slave is None or not slave.reached or flange_to_window(slave, layout).min() > 0.0:
+        return False
+    if points_to_window(slave, layout, case.planner.control_points)[[0, -1]].min() <= 0.0:
+        return False
+    track = master_track(case)
+    if track is None:
+        return False
+    return bool(tips_apart(slave, placed_master(layout), track, moving=True).min() <= meeting)
+
+
+def random_case(meeting: float, rng: np.random.Generator) -> tuple[Case, int, int]:
+    """An arrangement in which Fig. 9 holds and the slave can rest at its goal.
+
+    Also the number of draws, and how many of those with Fig. 9 were left because window or parked
+    master repel the slave at its goal, so that (13)-(16) cannot end there.
+    """
+    given, draws, repelled = nominal(), 0, 0
+    while True:
+        draws += 1
+        case = given._replace(layout=draw(rng, given))
+        if not fig_9_holds(case, meeting):
+            continue
+        if not repelled_at_goal(case):
+            return case, draws, repelled
+        repelled += 1
+
+
+def lottery_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """Both methods, the traditional one in both readings, from the same ten starts."""
+    case, draws, repelled = random_case(settings["meeting_distance"], rng)
+    begin = starts(case, settings["trial_perturbation"], TRIALS, rng)
+    row = {"draws": draws, "goal_repelled": repelled, **asdict(case.layout), **motion_row(case)}
+    return row | outcomes(
+        case, ("traditional", "five_points", "without_virtual", "improved"), begin
+    )
+
+
+def motion_row(case: Case) -> dict[str, Any]:
+    """Figs 8, 10 and 11 in one arrangement: ends, distances of points and of link cores [m]."""
+    layout, planner = case.layout, case.planner
+    first, slave = master_plan(layout, planner), slave_plan(case)
+    undisturbed = master_undisturbed(layout, planner)
+    row: dict[str, Any] = {
+        "master_steps": first.steps,
+        "master_distance": points_to_window(first, layout, planner.control_points).min(),
+        "master_undisturbed": points_to_window(undisturbed, layout, planner.control_points).min(),
+        "slave_reason": "start-collides" if slave is None else str(slave.reason),
+    }
+    if slave is None:
+        return row
+    track, master = master_track(case), placed_master(layout)
+    cores = link_cores(layout, slave, track)
+    to_bars = cores.between("slave", "window")
+    settings = VARIANTS["traditional"].settings(case)
+    traditional = attempt(slave.placed, slave.placed.start, slave_obstacles(case), settings)
+    return row | {
+        "slave_steps": slave.steps,
+        "slave_length": slave.length,
+        "traditional_reached": traditional is not None and traditional.reached,
+        "traditional_length": np.nan if traditional is None else traditional.length,
+        "slave_points": slave.clearance.min(),
+        "slave_flange_window": flange_to_window(slave, layout).min(),
+        "flanges_apart": tips_apart(slave, master, track).min(),
+        **{f"cores_{name}": value for name, value in smallest_cores(cores).items()},
+        "cores_start": to_bars[0],
+        "cores_goal": to_bars[-1],
+        "nearest_link": cores.nearest("slave", "window")[0],
+    }
+
+
+def repelled_at_goal(case: Case) -> bool:
+    """Whether window or parked master repels the slave at its goal: it cannot rest there."""
+    made = VARIANTS["improved"].problem(case)
+    return made.repels_at_goal(len(made.obstacles.cores) - 1)
+
+
+def _cells() -> list[dict[str, Any]]:
+    frozen = {key: assumption(key) for key in ("meeting_distance", "trial_perturbation")}
+    return [{"layout": k, **frozen} for k in range(LAYOUTS)]
+
+
+LOTTERY = REGISTRY.keeps(
+    Study(
+        name="xue_lottery",
+        title=(
+            "Random arrangements in which Fig. 9 holds: outcome of every method, clearance of links"
+        ),
+        cells=_cells,
+        compute=lottery_cell,
+        compared=DESCENTS,
+        seed=20200344,
+        settings=Chosen(
+            "xue",
+            (*KEPT, "meeting_distance", "trial_perturbation"),
+            layouts=LAYOUTS,
+            trials=TRIALS,
+            ranges=RANGES,
+        ),
+    )
+)

@@ -1,0 +1,75 @@
+"""Minima of (13) where there is no obstacle: the sum of position and joint term is not convex."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ....arms import load_arm
+from ....ledger import REGISTRY, Study
+from ....ledger.comparison import Comparison
+from ....planning.field.potentials import JointAttraction, PositionAttraction, Sum
+from ....scene import PlacedArm
+from ..document import gains
+
+PAIRS = 40
+BLOCKS = 10
+#: Weights of the joint term [m^2/rad^2]; lengths in centimetres act as 1e-4, in millimetres as
+#: 1e-6.
+WEIGHTS = (1e-6, 1e-4, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
+ARRIVED = 0.02  # [rad]
+#: |dU/dq| up to which a descent has ended in a minimum.
+MINIMUM = 1e-7
+
+
+def minima_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """Descents from random starts to random goals; how many rest in a minimum elsewhere."""
+    arm, weight = load_arm("es165d"), settings["weight"]
+    placed = PlacedArm("arm", arm)
+    trapped = flat = 0
+    for start, goal in zip(*(arm.random_configurations(PAIRS, rng) for _ in range(2)), strict=True):
+        field = Sum(
+            [
+                PositionAttraction(placed, arm.positions(goal), gains()["k_a"]),
+                JointAttraction(goal, gains()["k_a"] * weight),
+            ]
+        )
+        end = _descend(field, start)
+        if np.abs(end - goal).max() > ARRIVED:
+            trapped += 1
+            flat += bool(np.linalg.norm(field.gradient(end)) <= MINIMUM)
+    return {"pairs": PAIRS, "elsewhere": trapped, "minima": flat}
+
+
+def _descend(field: Sum, start: np.ndarray) -> np.ndarray:
+    """End of a quasi-Newton descent, restarted until it no longer moves."""
+    q = start
+    for _ in range(5):
+        found = minimize(field.value, q, jac=field.gradient, method="BFGS", options={"gtol": 1e-10})
+        if np.abs(found.x - q).max() < 1e-6:
+            break
+        q = found.x
+    return found.x
+
+
+def _cells() -> list[dict[str, Any]]:
+    return [{"weight": weight, "block": k} for weight in WEIGHTS for k in range(BLOCKS)]
+
+
+MINIMA = REGISTRY.keeps(
+    Study(
+        name="xue_minima",
+        title="Minima of (13) without obstacles, over the weight of the joint term",
+        cells=_cells,
+        compute=minima_cell,
+        compared=tuple(
+            Comparison(name, "one descent may end on the other side", absolute=1)
+            for name in ("minima", "elsewhere")
+        ),
+        seed=20200347,
+        settings={"pairs": PAIRS, "weights": WEIGHTS, "arrived": ARRIVED, "flat": MINIMUM},
+    )
+)
