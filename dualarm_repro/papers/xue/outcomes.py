@@ -14,7 +14,7 @@ import numpy as np
 
 from ...ledger.comparison import Comparison
 from ...planning.descent.batch import perturbed
-from ...planning.descent.problem import Problem, problem
+from ...planning.descent.problem import PlanningProblem, problem
 from ...planning.settings import APFSettings
 from ...planning.trials.runs import Runs, run_trials
 from ...planning.trials.stuck import held, stationary
@@ -31,7 +31,7 @@ class Variant(NamedTuple):
     title: str
     settings: Callable[[Case], APFSettings]
 
-    def problem(self, case: Case) -> Problem:
+    def problem(self, case: Case) -> PlanningProblem:
         """The problem of the slave with this planner."""
         placed = placed_slave(case.layout)
         ends = (placed.start, placed.goal)

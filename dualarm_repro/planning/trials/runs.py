@@ -8,7 +8,7 @@ import numpy as np
 
 from ...scene import PlacedArm
 from ..descent.batch import plan_batch
-from ..descent.problem import Problem, problem
+from ..descent.problem import PlanningProblem, problem
 from ..descent.termination import StopReason
 from ..field.obstacles import Obstacles
 from ..settings import APFSettings
@@ -57,7 +57,7 @@ class Runs(NamedTuple):
         return runs
 
 
-def touching(made: Problem, starts: np.ndarray) -> np.ndarray:
+def touching(made: PlanningProblem, starts: np.ndarray) -> np.ndarray:
     """At which of the starts (N, nq) a control point touches or is inside an obstacle (N,)."""
     return made.repulsion.distances(starts).min(axis=(1, 2), initial=np.inf) <= 0.0
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from ..descent.batch import plan_batch
-from ..descent.problem import Problem, problem
+from ..descent.problem import PlanningProblem, problem
 from ..descent.termination import within
 from .runs import touching
 
@@ -28,7 +28,7 @@ _PUSHES = 8
 _PATIENCE = 1e-3
 
 
-def stationary(made: Problem, last: np.ndarray, gradient: np.ndarray) -> np.ndarray:
+def stationary(made: PlanningProblem, last: np.ndarray, gradient: np.ndarray) -> np.ndarray:
     """Which runs end where d(U_att + U_rep)/dq = 0, obstacles at rest, (N,) of bool.
 
     That is certain where |dU/dq| <= STATIONARY. A run that still creeps when its motion is judged
@@ -59,7 +59,7 @@ def stationary(made: Problem, last: np.ndarray, gradient: np.ndarray) -> np.ndar
     return found
 
 
-def held(made: Problem, last: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+def held(made: PlanningProblem, last: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Which runs do not arrive after any of some small pushes either, obstacles at rest (N,).
 
     Each joint is pushed by up to PUSH, which draws away what rests on a saddle or on the rim of a

@@ -14,7 +14,7 @@ import pinocchio as pin
 from .....arms import load_arm
 from .....differences import central_differences
 from .....ledger import REGISTRY, Residual, Result
-from .....planning.descent.problem import Problem, problem
+from .....planning.descent.problem import PlanningProblem, problem
 from .....planning.field.obstacles import obstacles_of
 from .....planning.field.potentials import Potential
 from .....planning.settings import (
@@ -58,7 +58,7 @@ def sample_problem(
     virtual_centre: tuple[float, float, float] = tuple(_CENTRE),
     virtual_switching: str = "on_when_stuck",
     virtual_joints: bool = False,
-) -> Problem:
+) -> PlanningProblem:
     """Master from the printed start to the printed goal beside a window, with the printed gains.
 
     With ``virtual_joints`` the virtual point attracts the joints to the goal angles as well.
@@ -93,7 +93,7 @@ def sample_problem(
     return problem(placed, away, master_goal(), obstacles_of(scene), settings)
 
 
-def samples(made: Problem, count: int = 200) -> np.ndarray:
+def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
     """Configurations about the start with all control points outside the bars (N, 6)."""
     rng = np.random.default_rng(SEED)
     q = master_start() + rng.uniform(-0.5, 0.5, (count, 6))
