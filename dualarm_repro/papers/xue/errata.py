@@ -20,14 +20,7 @@ from .document import (
     table_counts,
     text_counts,
 )
-from .motions import (
-    largest_radius,
-    link_cores,
-    master_track,
-    master_undisturbed,
-    slave_plan,
-    smallest_cores,
-)
+from .motions import largest_radius, master_undisturbed, replay_of, slave_plan, smallest_cores
 from .outcomes import TRIALS, VARIANTS, run_variants, starts
 from .pages.kinematics.chain import symbolic_poses
 from .pages.kinematics.printed_chain import (
@@ -270,7 +263,7 @@ def deterministic_trials() -> Proof:
 def tool_only() -> Proof:
     """Arrangements in which the end effectors are clear and links are not."""
     case = nominal()
-    cores = link_cores(case.layout, slave_plan(case), master_track(case))
+    cores = replay_of(case, slave_plan(case)).cores()
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
         "there are arrangements in which both end effectors do what the figures show while links "

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ...errors import InputError
@@ -11,9 +13,8 @@ from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.master_slave import at_tool_speed
 from ...planning.plan import Plan
 from ...planning.settings import APFSettings
-from ...planning.trials.encounter import inside_opening, to_obstacles
-from ...planning.trials.link_cores import LinkCores
-from ...planning.trials.link_cores import link_cores as cores_of_scene
+from ...planning.trials.encounter import inside_opening, instants, tips_apart, to_obstacles
+from ...planning.trials.link_cores import LinkCores, link_cores
 from ...scene import JointPath, PlacedArm, Scene, facing
 from ...tracking import memo
 from .document import Layout, placed_master, placed_slave, scene_of
@@ -126,12 +127,42 @@ def through_window(plan: Plan, layout: Layout) -> float:
     return inside_opening(plan.tcp, layout.window_centre, facing(layout.normal), size)
 
 
-def link_cores(
-    layout: Layout, slave: Plan, track: JointPath, floor: float | None = None
-) -> LinkCores:
-    """Core distances of all links from the start until both arms rest."""
-    paths = {"master": track, "slave": slave.joint_path()}
-    return cores_of_scene(scene_of(layout, floor), paths, _CLOSE)
+class Replay(NamedTuple):
+    """A motion of the slave beside that of the master."""
+
+    case: Case
+    slave: Plan
+    track: JointPath
+
+    @property
+    def layout(self) -> Layout:
+        """The arrangement."""
+        return self.case.layout
+
+    @property
+    def times(self) -> np.ndarray:
+        """Steps 0, 1, ... until both arms rest (T,)."""
+        return instants(self.slave, self.track)
+
+    def apart(self, *, moving: bool = False) -> np.ndarray:
+        """Distance of the end effectors until both arms rest, or while the slave moves [m]."""
+        return tips_apart(self.slave, placed_master(self.layout), self.track, moving=moving)
+
+    def to_window(self) -> np.ndarray:
+        """Signed distance of the slave's end effector to the nearest bar at every step [m]."""
+        return flange_to_window(self.slave, self.layout)
+
+    def cores(self, floor: float | None = None) -> LinkCores:
+        """Core distances of all links until both arms rest."""
+        paths = {"master": self.track, "slave": self.slave.joint_path()}
+        return link_cores(scene_of(self.layout, floor), paths, _CLOSE)
+
+
+@memo(512)
+def replay_of(case: Case, slave: Plan | None) -> Replay | None:
+    """The slave's plan beside the master's track, or None where one of them is missing."""
+    track = master_track(case)
+    return None if slave is None or track is None else Replay(case, slave, track)
 
 
 def smallest_cores(cores: LinkCores) -> dict[str, float]:

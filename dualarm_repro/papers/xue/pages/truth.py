@@ -10,11 +10,10 @@ import numpy as np
 
 from ....ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
 from ....ledger.shares import Share
-from ....planning.trials.encounter import tips_apart
 from ....planning.trials.link_cores import LinkCores
 from ....view.shares import curve_figure
-from ..document import lengths, placed_master
-from ..motions import PAIRS, largest_radius, link_cores, master_track, slave_plan, smallest_cores
+from ..document import lengths
+from ..motions import PAIRS, largest_radius, replay_of, slave_plan, smallest_cores
 from ..outcomes import VARIANTS
 from ..reading import Case, nominal
 from ..stored import choice, clear_share, is_declared, successful
@@ -38,15 +37,14 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
 def only_end_effectors(assumed: Assumed) -> Result:
     """Links of both arms in the nominal arrangement and over the lottery."""
     case, radius = Case.of(assumed), assumed["link_radius"]
-    slave, track = slave_plan(case), master_track(case)
+    replay = replay_of(case, slave_plan(case))
     found = clear_share(radius, "arms")
     parts = {pair: clear_share(radius, pair) for pair in PAIRS}
     parts["all"] = clear_share(radius)
     floor = case.layout.master_base_z - lengths("published")["d1"]
     cores, apart = None, None
-    if slave is not None and track is not None:
-        cores = link_cores(case.layout, slave, track, floor)
-        apart = float(tips_apart(slave, placed_master(case.layout), track).min())
+    if replay is not None:
+        cores, apart = replay.cores(floor), float(replay.apart().min())
     ends = successful()
     posture_hits = Share.of(
         (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum(), len(ends)

@@ -13,16 +13,14 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
-from ....planning.trials.encounter import tips_apart
-from ..document import Layout, assumption, placed_master, slave_end, slave_start
+from ..document import Layout, assumption, slave_end, slave_start
 from ..motions import (
     attempt,
     flange_to_window,
-    link_cores,
     master_plan,
-    master_track,
     master_undisturbed,
     points_to_window,
+    replay_of,
     slave_obstacles,
     slave_plan,
     slave_undisturbed,
@@ -58,22 +56,16 @@ def draw(rng: np.random.Generator, given: Case) -> Layout:
     k = int(rng.integers(len(master)))
     share = min(k / RANGES["undisturbed_steps"], 1.0)
     about = RANGES["master_about_meeting"]
-    base = (
-        slave_start()
-        + share * (slave_end() - slave_start())
-        - master[k]
-        + rng.uniform(-about, about, 3)
-    )
+    start, end = slave_start(), slave_end()
+    base = start + share * (end - start) - master[k] + rng.uniform(-about, about, 3)
     beside = rng.uniform(*RANGES["slave_base_y"])
     spread = RANGES["window_about_midpoint"]
-    centre = 0.5 * (slave_start() + slave_end()) + rng.uniform(-spread, spread, 3)
+    centre = 0.5 * (start + end) + rng.uniform(-spread, spread, 3)
     return replace(
         like,
-        **dict(
-            zip(("master_base_x", "master_base_y", "master_base_z"), base.tolist(), strict=True)
-        ),
+        **{f"master_base_{axis}": c for axis, c in zip("xyz", base.tolist(), strict=True)},
         base_distance=float(base[1] - beside),
-        **{f"window_centre_{axis}": float(c) for axis, c in zip("xyz", centre, strict=True)},
+        **{f"window_centre_{axis}": c for axis, c in zip("xyz", centre.tolist(), strict=True)},
         window_normal=str(rng.choice(RANGES["normals"])),
         window_opening_width=rng.uniform(*RANGES["opening_width"]),
         window_opening_height=rng.uniform(*RANGES["opening_height"]),
@@ -94,10 +86,8 @@ def fig_9_holds(case: Case, meeting: float) -> bool:
         return False
     if points_to_window(slave, layout, case.planner.control_points)[[0, -1]].min() <= 0.0:
         return False
-    track = master_track(case)
-    if track is None:
-        return False
-    return bool(tips_apart(slave, placed_master(layout), track, moving=True).min() <= meeting)
+    replay = replay_of(case, slave)
+    return replay is not None and bool(replay.apart(moving=True).min() <= meeting)
 
 
 def random_case(meeting: float, rng: np.random.Generator) -> tuple[Case, int, int]:
@@ -140,8 +130,8 @@ def motion_row(case: Case) -> dict[str, Any]:
     }
     if slave is None:
         return row
-    track, master = master_track(case), placed_master(layout)
-    cores = link_cores(layout, slave, track)
+    replay = replay_of(case, slave)
+    cores = replay.cores()
     to_bars = cores.between("slave", "window")
     settings = VARIANTS["traditional"].settings(case)
     traditional = attempt(slave.placed, slave.placed.start, slave_obstacles(case), settings)
@@ -151,8 +141,8 @@ def motion_row(case: Case) -> dict[str, Any]:
         "traditional_reached": traditional is not None and traditional.reached,
         "traditional_length": np.nan if traditional is None else traditional.length,
         "slave_points": slave.clearance.min(),
-        "slave_flange_window": flange_to_window(slave, layout).min(),
-        "flanges_apart": tips_apart(slave, master, track).min(),
+        "slave_flange_window": replay.to_window().min(),
+        "flanges_apart": replay.apart().min(),
         **{f"cores_{name}": value for name, value in smallest_cores(cores).items()},
         "cores_start": to_bars[0],
         "cores_goal": to_bars[-1],

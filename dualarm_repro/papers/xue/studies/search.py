@@ -14,14 +14,12 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
-from ....planning.trials.encounter import tips_apart
-from ..document import METHODS_OF_TABLE_2, Layout, assumption, gains, placed_master, text_counts
+from ..document import METHODS_OF_TABLE_2, Layout, assumption, gains, text_counts
 from ..motions import (
     flange_to_window,
-    link_cores,
-    master_track,
     master_undisturbed,
     points_to_window,
+    replay_of,
     slave_plan,
     slave_undisturbed,
     smallest_cores,
@@ -80,14 +78,14 @@ def margins(case: Case) -> dict[str, float]:
         "ends_out_of_range": ends.min() - gains()["d_0"],
         "avoidance_needed": DEMANDS["master_without"] - nearest,
     }
-    track, master = master_track(case), placed_master(layout)
-    if track is None:
+    replay = replay_of(case, slave)
+    if replay is None:
         return found | {"fig_8": -5.0}
-    found["meets"] = DEMANDS["meeting"] - tips_apart(slave, master, track, moving=True).min()
+    found["meets"] = DEMANDS["meeting"] - replay.apart(moving=True).min()
     plan = slave_plan(case)
     if plan is None or not plan.reached:
         return found | {"fig_11": -3.0}
-    cores = smallest_cores(link_cores(layout, plan, track))
+    cores = smallest_cores(replay_of(case, plan).cores())
     radius = DEMANDS["radius"]
     return found | {
         "through": max(through_window(plan, layout), -1.0),

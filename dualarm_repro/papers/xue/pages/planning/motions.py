@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,18 +12,15 @@ import pandas as pd
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....planning.field.control_points import end_effector
 from .....planning.plan import Plan
-from .....planning.trials.encounter import instants, tips_apart
-from .....scene import JointPath
-from .....tracking import memo
 from .....view.style import MASTER, SLAVE
 from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
 from ...document import Layout, gains, placed_master
 from ...motions import (
-    flange_to_window,
+    Replay,
     master_plan,
-    master_track,
     master_undisturbed,
     points_to_window,
+    replay_of,
     slave_plan,
     slave_undisturbed,
 )
@@ -31,9 +29,10 @@ from .scenes import avoiding_scene, colliding_scene, master_scene
 
 checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
 
-NOTHING = "In this arrangement there are not two motions to compare."
-_NEAR = 1.4  # of the tracks in space, around the window [m]
-_VIEW = {"elev": 24, "azim": -70}
+_NOTHING = "In this arrangement there are not two motions to compare."
+_NO_START = "The printed start of the master would touch a bar."
+#: Of the tracks in space, which are shown up to 1.4 m around the window.
+_VIEW = {"near": 1.4, "elev": 24, "azim": -70}
 
 _MASTER_RULES = (
     Is("reached", "the master arrives at the printed goal", value=True),
@@ -66,7 +65,7 @@ def master_past_window(assumed: Assumed) -> Result:
     plan = master_plan(layout, planner)
     found = _master_numbers(layout, planner, plan)
     if plan is None:
-        return Result(found, "The printed start of the master would touch a bar.")
+        return Result(found, _NO_START)
     return Result(
         obtained=found,
         table=plan.to_frame().reset_index(),
@@ -92,7 +91,7 @@ def master_avoids(assumed: Assumed) -> Result:
     plan = master_plan(layout, planner)
     found = _master_numbers(layout, planner, plan)
     if plan is None:
-        return Result(found, "The printed start of the master would touch a bar.")
+        return Result(found, _NO_START)
     undisturbed = master_undisturbed(layout, planner)
     curves = {
         "improved method": points_to_window(plan, layout, planner.control_points),
@@ -116,7 +115,7 @@ def slave_collides(assumed: Assumed) -> Result:
     """The slave under attraction alone beside the planned master."""
     replay, found = _colliding(assumed)
     if replay is None:
-        return Result(found, NOTHING)
+        return Result(found, _NOTHING)
     return Result(
         obtained=found,
         caption=(
@@ -134,8 +133,8 @@ def slave_collides(assumed: Assumed) -> Result:
             "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
             "the window and crosses the master's dashed track, with circles at both places."
         ),
-        figure=lambda: _colliding_figure(replay),
-        scene=lambda: colliding_scene(replay.case.layout, replay.slave, replay.track),
+        figure=lambda: _tracks_figure(tracks_figure, replay, _contacts(replay), **_VIEW),
+        scene=lambda: colliding_scene(replay),
     )
 
 
@@ -144,9 +143,8 @@ def slave_collides_without(assumed: Assumed) -> Result:
     """Where the undisturbed track enters a bar and where it meets the master."""
     replay, found = _colliding(assumed)
     if replay is None:
-        return Result(found, NOTHING)
-    inside = flange_to_window(replay.slave, replay.case.layout) <= 0.0
-    steps = np.flatnonzero(inside).tolist()
+        return Result(found, _NOTHING)
+    steps = np.flatnonzero(replay.to_window() <= 0.0).tolist()
     return Result(
         obtained={**found, "steps_inside_bar": steps},
         caption=(
@@ -164,7 +162,7 @@ def avoiding_from_above(assumed: Assumed) -> Result:
     """Both avoiding tracks seen along the vertical."""
     replay, found = _avoiding(assumed)
     if replay is None:
-        return Result(found, NOTHING)
+        return Result(found, _NOTHING)
     return Result(
         obtained=found,
         table=_track_table(replay),
@@ -172,9 +170,7 @@ def avoiding_from_above(assumed: Assumed) -> Result:
         alt=(
             "Plan view of a window, of the master's track and of the slave's track around its bars."
         ),
-        figure=lambda: top_view_figure(
-            replay.case.layout.window(), _avoiding_tracks(replay), _marks(replay.case.layout)
-        ),
+        figure=lambda: _tracks_figure(top_view_figure, replay),
     )
 
 
@@ -183,7 +179,7 @@ def avoiding_in_space(assumed: Assumed) -> Result:
     """Both avoiding tracks in space."""
     replay, found = _avoiding(assumed)
     if replay is None:
-        return Result(found, NOTHING)
+        return Result(found, _NOTHING)
     return Result(
         obtained=found,
         table=_track_table(replay),
@@ -192,14 +188,8 @@ def avoiding_in_space(assumed: Assumed) -> Result:
             "Tracks of both end effectors in space: the slave's runs from Start through the "
             "opening of the window to End, clear of the bars and of the master's track."
         ),
-        figure=lambda: tracks_figure(
-            replay.case.layout.window(),
-            _avoiding_tracks(replay),
-            _marks(replay.case.layout),
-            near=_NEAR,
-            **_VIEW,
-        ),
-        scene=lambda: avoiding_scene(replay.case.layout, replay.slave, replay.track),
+        figure=lambda: _tracks_figure(tracks_figure, replay, **_VIEW),
+        scene=lambda: avoiding_scene(replay),
     )
 
 
@@ -214,15 +204,14 @@ def slave_avoids(assumed: Assumed) -> Result:
     """Smallest distances of the slave's end effector and control points until both arms rest."""
     replay, found = _avoiding(assumed)
     if replay is None:
-        return Result({**found, "points": None}, NOTHING)
-    case = replay.case
+        return Result({**found, "points": None}, _NOTHING)
     found["points"] = float(replay.slave.clearance.min())
-    undisturbed = replay_of(case, slave_undisturbed(case.layout, case.planner))
+    undisturbed, _ = _colliding(assumed)
     curves = {
-        "window, improved": _held(flange_to_window(replay.slave, case.layout), replay),
-        "master, improved": tips_apart(replay.slave, replay.master, replay.track),
-        "window, attraction alone": _held(flange_to_window(undisturbed.slave, case.layout), replay),
-        "master, attraction alone": tips_apart(undisturbed.slave, replay.master, replay.track),
+        "window, improved": _until_rest(replay.to_window(), replay.times),
+        "master, improved": replay.apart(),
+        "window, attraction alone": _until_rest(undisturbed.to_window(), replay.times),
+        "master, attraction alone": undisturbed.apart(),
     }
     return Result(
         obtained=found,
@@ -254,35 +243,16 @@ def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
     return replay, _meeting_numbers(replay, meeting, moving=False)
 
 
-class Replay(NamedTuple):
-    """A motion of the slave beside the master."""
-
-    case: Case
-    slave: Plan
-    track: JointPath
-    master: Any
-
-
-@memo(512)
-def replay_of(case: Case, slave: Plan | None) -> Replay | None:
-    """The slave's plan and the master's track, or None where one of them is missing."""
-    track = master_track(case)
-    if slave is None or track is None:
-        return None
-    return Replay(case, slave, track, placed_master(case.layout))
-
-
 def _master_numbers(layout: Layout, planner: PlannerChoice, plan: Plan | None) -> dict[str, Any]:
     if plan is None:
         return {"reached": False, "distance": None, "needed": False}
-    undisturbed = points_to_window(
-        master_undisturbed(layout, planner), layout, planner.control_points
-    ).min()
+    alone, points = master_undisturbed(layout, planner), planner.control_points
+    undisturbed = points_to_window(alone, layout, points).min()
     inside = plan.placed.arm.within_limits(plan.path, 1e-9)
     return {
         "reached": plan.reached,
         "steps": plan.steps,
-        "distance": float(points_to_window(plan, layout, planner.control_points).min()),
+        "distance": float(points_to_window(plan, layout, points).min()),
         "distance_undisturbed": float(undisturbed),
         "needed": bool(undisturbed < gains()["d_0"]),
         "activations": plan.activations,
@@ -295,8 +265,7 @@ def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> 
     if replay is None:
         nothing = dict.fromkeys(("flange_window", "beyond_meeting"))
         return {"reached": False, "enters_bar": False, "meets_master": False, **nothing}
-    window = float(flange_to_window(replay.slave, replay.case.layout).min())
-    apart = tips_apart(replay.slave, replay.master, replay.track, moving=moving)
+    window, apart = float(replay.to_window().min()), replay.apart(moving=moving)
     return {
         "reached": replay.slave.reached,
         "reason": str(replay.slave.reason),
@@ -327,37 +296,35 @@ def _arrival(replay: Replay, found: dict[str, Any]) -> str:
     )
 
 
-def _held(values: np.ndarray, replay: Replay) -> np.ndarray:
-    """A quantity of the slave until both arms rest."""
-    return values[np.minimum(instants(replay.slave, replay.track), len(values) - 1)]
+def _until_rest(values: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """A quantity of the slave, which waits at its goal, until both arms rest."""
+    return values[np.minimum(times, len(values) - 1)]
 
 
-def _marks(layout: Layout) -> dict[str, np.ndarray]:
-    start, end = layout.slave_points()
-    return {"Start": start, "End": end, "virtual point": layout.window_centre}
-
-
-def _master_track_points(replay: Replay) -> np.ndarray:
-    return end_effector(replay.master, replay.track.configurations)
-
-
-def _avoiding_tracks(replay: Replay) -> list[Track]:
-    return [
-        Track("master", _master_track_points(replay), MASTER, "--"),
-        Track("slave", replay.slave.tcp, SLAVE),
-    ]
+def _tracks_figure(view: Callable[..., Any], replay: Replay, *further: Any, **how: Any) -> Any:
+    """Tracks of both end effectors around the window, with Start, End and the virtual point."""
+    start, end = replay.layout.slave_points()
+    points = end_effector(placed_master(replay.layout), replay.track.configurations)
+    tracks = [Track("master", points, MASTER, "--"), Track("slave", replay.slave.tcp, SLAVE)]
+    marks = {"Start": start, "End": end, "virtual point": replay.layout.window_centre}
+    return view(replay.layout.window(), tracks, marks, *further, **how)
 
 
 def _track_table(replay: Replay) -> pd.DataFrame:
-    times = instants(replay.slave, replay.track)
-    slave = replay.slave.tcp[np.minimum(times, replay.slave.steps)]
-    master = end_effector(replay.master, replay.track.at(times))
+    slave = _until_rest(replay.slave.tcp, replay.times)
+    master = end_effector(placed_master(replay.layout), replay.track.at(replay.times))
     columns = {
         f"{name}_{axis}_m": points[:, k]
         for name, points in (("master", master), ("slave", slave))
         for k, axis in enumerate("xyz")
     }
-    return pd.DataFrame({"step": times, **columns})
+    return pd.DataFrame({"step": replay.times, **columns})
+
+
+def _contacts(replay: Replay) -> dict[str, np.ndarray]:
+    """Where the undisturbed slave is deepest in a bar, and nearest to the master."""
+    places = {"hits the window": replay.to_window(), "meets the master": replay.apart(moving=True)}
+    return {name: replay.slave.tcp[distance.argmin()] for name, distance in places.items()}
 
 
 def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:
@@ -367,21 +334,4 @@ def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:
     ]
     return tracks_figure(
         layout.window(), tracks, {"start": plan.tcp[0], "goal": plan.tcp[-1]}, elev=18, azim=-40
-    )
-
-
-def _colliding_figure(replay: Replay) -> Any:
-    window = flange_to_window(replay.slave, replay.case.layout)
-    apart = tips_apart(replay.slave, replay.master, replay.track, moving=True)
-    contacts = {
-        "hits the window": replay.slave.tcp[window.argmin()],
-        "meets the master": replay.slave.tcp[apart.argmin()],
-    }
-    return tracks_figure(
-        replay.case.layout.window(),
-        _avoiding_tracks(replay),
-        _marks(replay.case.layout),
-        contacts,
-        near=_NEAR,
-        **_VIEW,
     )
