@@ -30,7 +30,7 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
             "links_collide",
             "the end effectors stay apart, and other links of the two arms touch",
             value=False,
-        ),
+        )
     ],
     samples=32,
 )

@@ -15,14 +15,7 @@ from .....view.arm_drawings import dimension_drawing, frames_figure, stick_figur
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
 from ....wording import point
-from ...document import (
-    SEED,
-    base_placements,
-    lengths,
-    master_goal,
-    master_start,
-    placed_master,
-)
+from ...document import SEED, base_placements, lengths, master_goal, master_start, placed_master
 from ...reading import nominal
 from .printed_chain import (
     LINKS,
@@ -207,10 +200,7 @@ def mirror(assumed: Assumed) -> Result:
     )
 
 
-@checks(
-    "xue.claim_master_start",
-    rules=[Adopts("q", "start angles used [rad]", to="q")],
-)
+@checks("xue.claim_master_start", rules=[Adopts("q", "start angles used [rad]", to="q")])
 def start_of_master(assumed: Assumed) -> Result:
     """Start of the master, and how far it is outside the range of the real axis L."""
     arm = load_arm("es165d")
@@ -227,10 +217,7 @@ def start_of_master(assumed: Assumed) -> Result:
     )
 
 
-@checks(
-    "xue.claim_master_goal",
-    rules=[Adopts("q", "goal angles used [rad]", to="q")],
-)
+@checks("xue.claim_master_goal", rules=[Adopts("q", "goal angles used [rad]", to="q")])
 def goal_of_master(assumed: Assumed) -> Result:
     """Goal of the master; unlike the start it tells Table 1 from the matrices."""
     arm, goal = load_arm("es165d"), placed_master(nominal().layout).goal

@@ -119,12 +119,7 @@ def difference(printed: np.ndarray, run: np.ndarray) -> float:
     return float(abs(printed - run).max())
 
 
-def agreement(
-    name: str,
-    printed: np.ndarray,
-    potential: Potential,
-    q: np.ndarray,
-) -> Result:
+def agreement(name: str, printed: np.ndarray, potential: Potential, q: np.ndarray) -> Result:
     """The printed formula against the potential that is descended, and its gradient."""
     found = difference(printed, potential.value(q))
     error = worst_gradient(potential, q[:_GRADIENTS])

@@ -123,11 +123,7 @@ def term_scaling() -> dict[str, float | bool]:
 
     position, joint = factor(x, at_goal), factor(goal, joints)
     differ = np.isfinite([position, joint]).all() and not np.isclose(position, joint)
-    return {
-        "one_dimension": not differ,
-        "position_factor": position,
-        "joint_factor": joint,
-    }
+    return {"one_dimension": not differ, "position_factor": position, "joint_factor": joint}
 
 
 @checks("xue.eq14", rules=[VALUE(), GRADIENT()])
@@ -197,10 +193,7 @@ def total_potential(assumed: Assumed) -> Result:
     field = made.field_in(initial(made.switch_rules))
     found = agreement("(16)", printed, field, q)
     lacking = " Print lacks the term of the virtual point, which acts from the start."
-    return replace(
-        found,
-        caption=found.caption + ("" if len(field.parts) == 2 else lacking),
-    )
+    return replace(found, caption=found.caption + ("" if len(field.parts) == 2 else lacking))
 
 
 @checks(

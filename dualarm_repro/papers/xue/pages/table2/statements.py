@@ -47,7 +47,7 @@ _ENDS = {
             "step_ratio",
             "steps of the method with the longer printed time over those of the other",
             low=1,
-        ),
+        )
     ],
     samples=32,
 )
