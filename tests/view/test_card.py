@@ -85,7 +85,9 @@ def test_search_says_what_was_done_and_what_is_left():
 def test_card_leads_to_the_lines_that_decide(made):
     soup = BeautifulSoup(card_html(made, "../"), "html.parser")
     link = soup.select_one(".ledger-code a")
-    assert link["href"] == "../_modules/dualarm_repro/papers/xue/chain.html#table_1"
+    assert (
+        link["href"] == "../_modules/dualarm_repro/papers/xue/pages/kinematics/chain.html#table_1"
+    )
     assert re.search(r"chain\.py:\d+ table_1", link.get_text())
 
 

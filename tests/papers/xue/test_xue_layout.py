@@ -1,4 +1,4 @@
-"""The arrangement: scene file, assumptions and search agree; postures of the slave."""
+"""Printed inputs, the arrangement, and postures of the slave."""
 
 from dataclasses import replace
 
@@ -7,33 +7,31 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualarm_repro.datafiles import data_path
 from dualarm_repro.papers.xue.document import (
     arms_of,
+    gains,
+    master_goal,
+    master_start,
     placed_slave,
     posture,
-    scene_of,
     slave_end,
     slave_start,
+    workspace_points,
 )
 from dualarm_repro.papers.xue.reading import nominal
-from dualarm_repro.scene import load_scene
 
 SLAVE = arms_of("matrices")[1]
 
 
-def test_scene_file_is_the_nominal_arrangement(registry):
-    stored, made = load_scene(data_path("scenes", "xue.yaml")), scene_of(nominal().layout)
-    for a, b in zip(stored.arms, made.arms, strict=True):
-        assert a.name == b.name
-        assert a.arm.name == b.arm.name
-        np.testing.assert_allclose(a.placement.homogeneous, b.placement.homogeneous, atol=1e-12)
-        np.testing.assert_allclose(a.start, b.start, atol=1e-11)
-        np.testing.assert_allclose(a.goal, b.goal, atol=1e-11)
-    for field in ("boxes", "half"):
-        np.testing.assert_allclose(
-            getattr(stored.bodies, field), getattr(made.bodies, field), atol=1e-12
-        )
+def test_inputs_are_those_of_print(registry):
+    """The one copy of the numbers beside the ledger."""
+    np.testing.assert_array_equal(master_start(), np.zeros(6))
+    goal = np.pi * np.array([-1 / 2, -1 / 8, -1 / 2, 1 / 2, 1 / 4, 0])
+    np.testing.assert_allclose(master_goal(), goal, rtol=1e-15)
+    assert slave_start().tolist() == [0.75, 0.35, 0.5]
+    assert slave_end().tolist() == [-0.45, 0.8, 0.15]
+    assert gains() == {"k_a": 3.0, "k_w": 2.0, "k_r": 1.0, "d_0": 0.3}
+    assert workspace_points() == 100_000
 
 
 def test_slave_starts_and_ends_where_printed(registry):

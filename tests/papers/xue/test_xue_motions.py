@@ -6,22 +6,23 @@ import coal
 import numpy as np
 import pytest
 
-from dualarm_repro.papers.xue.document import gains, master_goal, placed_master, placed_slave
+from dualarm_repro.papers.xue.document import gains, master_goal, placed_slave
 from dualarm_repro.papers.xue.motions import (
     flange_to_window,
     largest_radius,
-    link_cores,
     master_plan,
     master_track,
     master_undisturbed,
     points_to_window,
+    replay_of,
     slave_obstacles,
     slave_plan,
     slave_undisturbed,
+    smallest_cores,
+    through_window,
 )
 from dualarm_repro.papers.xue.reading import improved, nominal, traditional
 from dualarm_repro.planning import plan_apf
-from dualarm_repro.planning.trials.encounter import tips_apart
 
 
 @pytest.fixture(scope="module")
@@ -31,12 +32,12 @@ def case(registry):
 
 def test_printed_gains_reach_the_planner(case):
     settings = improved(case.planner, case.layout.window_centre, master_goal())
-    assert settings.attraction.gain == gains()["k_a"]
-    assert (settings.repulsion.gain, settings.repulsion.influence) == (
-        gains()["k_r"],
-        gains()["d_0"],
-    )
-    assert settings.virtual_point.gain == gains()["k_w"]
+    assert gains() == {
+        "k_a": settings.attraction.gain,
+        "k_w": settings.virtual_point.gain,
+        "k_r": settings.repulsion.gain,
+        "d_0": settings.repulsion.influence,
+    }
     assert traditional(case.planner, "end_effector").attraction.joint_weight == 0.0
 
 
@@ -96,16 +97,6 @@ def test_flange_is_among_the_control_points(case):
     assert (points >= points_to_window(plan, case.layout, "capsules") - 1e-12).all()
 
 
-def test_a_waiting_slave_counts_only_until_both_rest(case):
-    slave, master = slave_plan(case), placed_master(case.layout)
-    track = master_track(case)
-    whole = tips_apart(slave, master, track)
-    assert len(whole) == 1 + max(slave.steps, int(track.index[-1]))
-    np.testing.assert_array_equal(
-        tips_apart(slave, master, track, moving=True), whole[: slave.steps + 1]
-    )
-
-
 def test_slave_passes_the_opening(case):
     assert through_window(slave_plan(case), case.layout) > 0.0
     narrow = replace(case.layout, window_opening_width=0.01, window_opening_height=0.01)
@@ -113,25 +104,15 @@ def test_slave_passes_the_opening(case):
 
 
 def test_cores_of_links_and_the_radius_they_allow(case):
-    cores = link_cores(case.layout, slave_plan(case), master_track(case))
-    radius = largest_radius(cores.smallest)
-    assert radius == min(
-        cores.smallest["slave_window"],
-        cores.smallest["master_window"],
-        0.5 * cores.smallest["arms"],
-    )
-    row = int(cores.between("slave", "window").argmin())
-    first, second = cores.nearest("slave", "window")
-    assert first.startswith("slave/")
-    assert second.startswith("window/")
-    assert cores.found.distance[row].min() <= cores.smallest["slave_window"]
+    cores = replay_of(case, slave_plan(case)).cores()
+    smallest = smallest_cores(cores)
+    found = (smallest["slave_window"], smallest["master_window"], 0.5 * smallest["arms"])
+    assert largest_radius(smallest) == min(found) > 0.0
     # A point of a core cannot be farther from the bars than the whole core.
-    assert (
-        cores.smallest["slave_window"]
-        <= points_to_window(slave_plan(case), case.layout, "frames_2_6").min() + 1e-9
-    )
+    points = points_to_window(slave_plan(case), case.layout, "frames_2_6")
+    assert smallest["slave_window"] <= points.min() + 1e-9
 
 
 def test_limits_enforced_refuse_the_printed_start(case):
-    method = replace(case.planner, joint_limits_in_motion="enforced")
-    assert master_plan(case.layout, method) is None
+    planner = replace(case.planner, joint_limits_in_motion="enforced")
+    assert master_plan(case.layout, planner) is None

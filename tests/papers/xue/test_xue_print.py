@@ -7,9 +7,7 @@ import pytest
 
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.papers.xue.document import table_counts, text_counts
-from dualarm_repro.papers.xue.pages.potentials import improved as new_potentials
-from dualarm_repro.papers.xue.pages.potentials import printed_field
-from dualarm_repro.papers.xue.pages.potentials import traditional as potentials
+from dualarm_repro.papers.xue.pages.potentials import improved, printed_field, traditional
 from dualarm_repro.papers.xue.pages.table2 import statements as inverse_calls
 
 #: Another formula that can be parsed, and the printed one with one sign or coefficient changed.
@@ -55,17 +53,17 @@ def test_the_virtual_point_takes_the_form_printed_for_the_goal(registry, reprint
 def test_a_force_printed_as_a_vector_is_reproduced(registry, reprint):
     reprint("eq11", formula="F_att = -grad(U_att) = -k_a*(X - X_g)")
     assert evaluate(registry, "xue.eq11").verdict is Verdict.REPRODUCED
-    assert potentials.attractive_force_forms() == {"vector_form": True, "printed_form": True}
+    assert traditional.attractive_force_forms() == {"vector_form": True, "printed_form": True}
 
 
 def test_terms_of_one_dimension_are_no_contradiction(registry, reprint):
-    scaling = new_potentials.term_scaling()
+    scaling = improved.term_scaling()
     assert scaling["position_factor"] == pytest.approx(4.0)
     assert scaling["joint_factor"] == pytest.approx(1.0)
     assert not scaling["one_dimension"]
     angles = "sum_{i=1}^{6} |theta_i - theta_{gi}|^2"
     reprint("eq13", formula=f"U_aat^* = k_a/2*(|X - X_g|^2 + |X|^2*{angles})")
-    assert new_potentials.term_scaling()["one_dimension"]
+    assert improved.term_scaling()["one_dimension"]
 
 
 def test_what_cannot_be_evaluated_agrees_with_nothing(registry, reprint):

@@ -5,8 +5,8 @@ import pytest
 
 from dualarm_repro.ledger.assumptions import Chosen
 from dualarm_repro.papers.xue import stored
-from dualarm_repro.papers.xue.document import Layout, assumption, placed_master
-from dualarm_repro.papers.xue.motions import flange_to_window, master_track, slave_undisturbed
+from dualarm_repro.papers.xue.document import Layout, assumption
+from dualarm_repro.papers.xue.motions import replay_of, slave_undisturbed
 from dualarm_repro.papers.xue.reading import KEPT, nominal
 from dualarm_repro.papers.xue.studies import lottery, minima
 from dualarm_repro.papers.xue.studies.search import (
@@ -17,7 +17,6 @@ from dualarm_repro.papers.xue.studies.search import (
     on_grid,
     table_2,
 )
-from dualarm_repro.planning.trials.encounter import tips_apart
 
 STUDIES = (
     "xue_search",
@@ -41,10 +40,9 @@ def test_lottery_draws_satisfy_fig_9(registry):
     rng = np.random.default_rng(2)
     case, draws, _ = lottery.random_case(0.15, rng)
     assert draws >= 1
-    slave = slave_undisturbed(case.layout, case.planner)
-    assert flange_to_window(slave, case.layout).min() <= 0.0
-    master, track = placed_master(case.layout), master_track(case)
-    assert tips_apart(slave, master, track, moving=True).min() <= 0.15
+    replay = replay_of(case, slave_undisturbed(case.layout, case.planner))
+    assert replay.to_window().min() <= 0.0
+    assert replay.apart(moving=True).min() <= 0.15
     assert not lottery.repelled_at_goal(case)
 
 

@@ -1,4 +1,4 @@
-"""Trials, certificates and the reuse of runs that meet no trap."""
+"""Trials of the slave: counts, and the reuse of runs that meet no trap."""
 
 from dataclasses import replace
 
@@ -17,8 +17,7 @@ from dualarm_repro.papers.xue.outcomes import (
 )
 from dualarm_repro.papers.xue.reading import nominal
 from dualarm_repro.papers.xue.studies.ablation import NAMED
-from dualarm_repro.planning import StopReason, plan_apf_compiled
-from dualarm_repro.planning.descent.problem import problem
+from dualarm_repro.planning import plan_apf_compiled
 from dualarm_repro.planning.trials.runs import TOUCHES
 
 
@@ -53,31 +52,10 @@ def test_rerun_of_the_missed_is_the_improved_method(case):
     begin = starts(yawed, 0.1, 5, np.random.default_rng(0))
     made = run_variants(yawed, ("without_virtual", "improved"), begin)
     whole = run_variant(yawed, "improved", begin)
-    assert (made["without_virtual"].reason != StopReason.REACHED).any(), "the point is needed here"
+    assert not made["without_virtual"].reached.all(), "the point is needed here"
     for one, other in zip(made["improved"], whole, strict=True):
         np.testing.assert_array_equal(one, other)
     assert made["improved"].rescued.any()
-
-
-def test_trapped_runs_stand_where_the_gradient_vanishes(case):
-    begin = starts(case, 0.1, 10, np.random.default_rng(0))
-    runs = run_variant(case, "traditional", begin)
-    found = summary(case, "traditional", runs)
-    assert 0 < found.stationary <= found.trapped
-    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
-    made = problem(
-        placed, placed.start, placed.goal, obstacles, VARIANTS["traditional"].settings(case)
-    )
-    rest = len(obstacles.cores) - 1
-    flat = (runs.reason == StopReason.TRAPPED) & (runs.gradient <= FLAT)
-    assert flat.any()
-    for q in runs.last[flat]:
-        assert np.linalg.norm(made.field.gradient(q, rest)) <= 1.01 * FLAT
-        differences = [
-            (made.field.value(q + e, rest) - made.field.value(q - e, rest)) / 2e-5
-            for e in 1e-5 * np.eye(6)
-        ]
-        assert np.linalg.norm(differences) <= 2.0 * FLAT
 
 
 def test_a_wall_holds_an_arm_against_pushes(case):
@@ -107,9 +85,3 @@ def test_outcomes_are_flat_columns(case, begin):
     row = outcomes(case, ("traditional", "without_virtual", "improved"), begin[:2])
     assert row["traditional_runs"] == row["improved_runs"] == 2
     assert all(np.isscalar(value) for value in row.values())
-
-
-def test_wilson_interval():
-    low, high = wilson(8, 10)
-    assert low == pytest.approx(0.4902, abs=1e-4)
-    assert high == pytest.approx(0.9433, abs=1e-4)
