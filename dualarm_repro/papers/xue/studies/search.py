@@ -1,8 +1,10 @@
 """Search for an arrangement in which the printed facts hold together.
 
 Hill climbing from several starts: some numbers of the arrangement are disturbed, and the change is
-kept when the facts are met better; Table 2 counts once all figures are met. Its outcome shows that
-the facts are compatible; how typical they are is the business of the lottery."""
+kept when the facts are met better; Table 2 counts once all figures are met. Its outcome, the
+values that the ledger assumes, shows that the facts are compatible; how typical they are is the
+business of the lottery. Direction and bars of the window stay as the random start has them.
+"""
 
 from __future__ import annotations
 
