@@ -2,7 +2,8 @@
 
 A perturbed start that touches an obstacle is a miss of the planner, though no method could do
 anything about it; and the five points of (14) touch where the end effector alone does not. The
-starts are drawn again, as the lottery drew them, so that such arrangements can be left out."""
+starts are drawn again, as the lottery drew them, so that such arrangements can be left out.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """The layout lottery: random arrangements in which Fig. 9 holds, and what both methods do there.
 
 Bases, window and its opening are not printed. One arrangement can be found for nearly any outcome
-of Table 2; the share of arrangements that show it says what the printed facts alone imply."""
+of Table 2; the share of arrangements that show it says what the printed facts alone imply.
+"""
 
 from __future__ import annotations
 

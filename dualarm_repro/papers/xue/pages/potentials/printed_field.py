@@ -1,7 +1,8 @@
 """Values of the printed formulas (9)-(16): parsed from the ledger, never retyped.
 
 Where the ledger is wrong by a sign or a digit, so are these values; where a formula cannot be
-evaluated with the quantities it should hold, they are NaN and agree with nothing."""
+evaluated with the quantities it should hold, they are NaN and agree with nothing.
+"""
 
 from __future__ import annotations
 
