@@ -3,27 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import root
+from scipy.optimize import minimize, root
 
-from ...control.neural.network_settings import NetworkSettings
-from ...control.neural.optimality import optimality, penalised_hessian
-from ...control.neural.penalty import PENALTIES, penalty
-from ...control.problem import Problem
-from ...control.recorded import recorded_problems
-from ...control.settings import Settings
-from ...control.solvers import solve
-from ...tracking import memo
-from .constants import COARSE_STEP
-from .scenario import frozen, run
-
-
-@memo()
-def sample_problem() -> Problem:
-    """The problem of the frozen task with the largest multiplier of an avoidance row."""
-    scenario, settings = frozen("crossing"), Settings()
-    motion = run(scenario, settings, COARSE_STEP)
-    problems = recorded_problems(scenario.system, scenario.circles, motion, settings, 20)
-    return max(problems, key=lambda p: float(solve(p).z.max(initial=0.0)))
+from ...differences import central_differences
+from ..problem import Problem
+from ..solvers import solve
+from .network_settings import NetworkSettings
+from .optimality import optimality, penalised_hessian
+from .penalty import PENALTIES, penalty
 
 
 def rest_point(p: Problem, network: NetworkSettings) -> np.ndarray:
@@ -61,7 +48,7 @@ def state_matrix(p: Problem, network: NetworkSettings, y: np.ndarray) -> np.ndar
     return M
 
 
-def stacked(p: Problem) -> tuple[np.ndarray, np.ndarray]:
+def inequalities(p: Problem) -> tuple[np.ndarray, np.ndarray]:
     """All inequalities as C x <= d."""
     eye = np.eye(p.size)
     return np.vstack([p.G, eye, -eye]), np.concatenate([p.h, p.upper, -p.lower])
@@ -69,7 +56,7 @@ def stacked(p: Problem) -> tuple[np.ndarray, np.ndarray]:
 
 def penalties(p: Problem, network: NetworkSettings, x: np.ndarray) -> np.ndarray:
     """P, P' and P'' of all inequalities (h, 3)."""
-    C, d = stacked(p)
+    C, d = inequalities(p)
     kind = PENALTIES.index(network.penalty)
     return np.array([penalty(kind, network.factor, network.sharpness, g) for g in C @ x - d])
 
@@ -89,13 +76,7 @@ def lagrangian_gradient(
     p: Problem, network: NetworkSettings, y: np.ndarray, step: float = 1e-6
 ) -> np.ndarray:
     """Derivatives of the Lagrangian by the state, by central differences of its values."""
-    moves = step * np.eye(len(y))
-    return np.array(
-        [
-            (lagrangian_value(p, network, y + m) - lagrangian_value(p, network, y - m)) / (2 * step)
-            for m in moves
-        ]
-    )
+    return central_differences(lambda state: lagrangian_value(p, network, state), y, step)
 
 
 def blocks(
@@ -104,5 +85,30 @@ def blocks(
     """E = [I J^T; J 0], y and e = [target - C^T P'; dr/dt]."""
     n, m = p.size, len(p.b)
     E = np.block([[np.eye(n), p.A.T], [p.A, np.zeros((m, m))]])
-    push = stacked(p)[0].T @ penalties(p, network, y[:n])[:, 1]
+    push = inequalities(p)[0].T @ penalties(p, network, y[:n])[:, 1]
     return E, y, np.concatenate([p.target - push, p.b])
+
+
+def minimiser(p: Problem, network: NetworkSettings) -> np.ndarray:
+    """Minimiser of the penalised objective among the x with A x = b, found without multipliers."""
+    basis = np.linalg.svd(p.A)[2][len(p.b) :].T
+    start = np.linalg.pinv(p.A) @ p.b
+    C = inequalities(p)[0]
+
+    def slope(z: np.ndarray) -> np.ndarray:
+        x = start + basis @ z
+        return basis.T @ (x - p.target + C.T @ penalties(p, network, x)[:, 1])
+
+    def bend(z: np.ndarray) -> np.ndarray:
+        weights = penalties(p, network, start + basis @ z)[:, 2]
+        return basis.T @ (np.eye(p.size) + C.T @ (weights[:, None] * C)) @ basis
+
+    found = minimize(
+        lambda z: objective(p, network, start + basis @ z),
+        np.zeros(basis.shape[1]),
+        jac=slope,
+        hess=bend,
+        method="trust-exact",
+        options={"gtol": 1e-10, "maxiter": 500},
+    )
+    return start + basis @ found.x

@@ -8,28 +8,25 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...control.contest import Entry, contest, newton_all
-from ...control.neural.network import network_rate
-from ...control.neural.network_settings import NetworkSettings
-from ...control.neural.primal_dual import iterate
-from ...control.problem import Problem
-from ...control.recorded import stacked
-from ...control.solvers import solve
-from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
-from ...tracking import memo
-from ...view.control_figures import contest_figure, convergence_figure
-from .costs import (
-    busiest,
+from .....control.contest import Entry, contest, newton_all
+from .....control.neural.network import network_rate
+from .....control.neural.network_settings import NetworkSettings
+from .....control.neural.primal_dual import iterate
+from .....control.operations import (
     exact_operations,
     network_operations,
     primal_dual_operations,
-    pseudo_inverse_operations,
-    recorded,
 )
-from .scenario import network_of
+from .....control.problem import Problem
+from .....control.recorded import stacked
+from .....control.solvers import solve
+from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
+from .....tracking import memo
+from .....view.control_figures import contest_figure, convergence_figure
+from ...problems import busiest, recorded
+from ...reading import PENALTY, network_settings
 
 checks = partial(REGISTRY.checks, page="patent/contest")
-_PENALTY = ("penalty_form", "penalty_factor", "penalty_sharpness")
 NEWTON_STEPS = (1, 2, 4, 8)
 ITERATIONS = (1, 3, 10, 30, 100, 300)
 #: Problems in a row on which the network starts from its state before.
@@ -51,7 +48,7 @@ _MOST_STEPS, _MOST_ITERATIONS = 60, 30_000
 )
 def faster_than_primal_dual(assumed: Assumed) -> Result:
     """Operations of both networks from a zero state until |x - x*| is below the threshold."""
-    network, threshold = network_of(assumed, *_PENALTY), assumed["convergence_threshold"]
+    network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
     cost, every = assumed["function_cost"], recorded(100)
     # At rest both are near from the start; what is left has something to do.
     busy = [k for k, errors in enumerate(_primal_dual_errors()) if errors[0] > threshold]
@@ -118,7 +115,7 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
 )
 def faster_than_numerical(assumed: Assumed) -> Result:
     """Operations on recorded problems in a row: exact active-set method against the network."""
-    network, threshold = network_of(assumed, *_PENALTY), assumed["convergence_threshold"]
+    network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
     problems = busiest(IN_A_ROW)
     steps, error = _steps_in_a_row(network, threshold)
     cost = assumed["function_cost"]
@@ -155,41 +152,6 @@ def faster_than_numerical(assumed: Assumed) -> Result:
         alt="Largest error against time a problem: the exact method at the bottom left, both "
         "networks above and to the right.",
         figure=lambda: contest_figure(_series(_entries(network)), 1e-12),
-    )
-
-
-@REGISTRY.checks(
-    "patent.claim_pinv_slow",
-    page="patent/avoidance",
-    rules=[
-        Generally(
-            "slower",
-            "problems on which the pseudo-inverse takes more operations than either solver",
-            at_least="nearly_all",
-            margin="margin",
-        ),
-    ],
-)
-def slow_pseudo_inverse(assumed: Assumed) -> Result:
-    """Operations of the pseudo-inverse against the cheaper of the exact QP and a network step."""
-    problems, network = recorded(100), NetworkSettings(penalty="quadratic")
-    own = [pseudo_inverse_operations(p) for p in problems]
-    steps = [network_operations(p, network) for p in problems]
-    exact = [exact_operations(p) for p in problems]
-    slower = sum(a > min(b, c) for a, b, c in zip(own, steps, exact, strict=True))
-    return Result(
-        obtained={
-            "slower": {"count": slower, "of": len(problems)},
-            "pseudo_inverse": float(np.median(own)),
-            "network_step": float(np.median(steps)),
-            "exact": float(np.median(exact)),
-        },
-        caption=(
-            f"For the same {len(problems)} problems the pseudo-inverse takes {np.median(own):.0f} "
-            f"operations in the median, a step of the network {np.median(steps):.0f} and the exact "
-            f"QP {np.median(exact):.0f}: it is slower than the cheaper of the two on {slower} of "
-            "them. What it lacks is constraints, not speed."
-        ),
     )
 
 

@@ -5,26 +5,24 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from scipy.optimize import minimize
 
-from ...control.neural.network_settings import NetworkSettings
-from ...control.neural.penalty import PENALTIES
-from ...control.problem import Problem
-from ...ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
-from ...ledger.formula import Formula, parse
-from .constants import SEED
-from .penalised import (
+from .....control.neural.network_settings import NetworkSettings
+from .....control.neural.penalised import (
     blocks,
     code_error,
     lagrangian_gradient,
-    objective,
-    penalties,
+    minimiser,
     rest_point,
-    sample_problem,
-    stacked,
     state_matrix,
 )
-from .scenario import network_of
+from .....control.neural.penalty import PENALTIES
+from .....control.problem import Problem
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
+from .....ledger.formula import Formula, parse
+from ...document import SEED
+from ...problems import sample_problem
+from ...reading import network_settings
 
 checks = partial(REGISTRY.checks, page="patent/network")
 _STATES = 5  # random states about the rest point, for each form of the penalty
@@ -73,7 +71,7 @@ def optimality_conditions(assumed: Assumed) -> Result:
     """The zero of both derivatives against a minimiser of the objective along the equality."""
     p = sample_problem()
     apart = {
-        name: float(np.abs(rest_point(p, n)[: p.size] - _minimiser(p, n)).max())
+        name: float(np.abs(rest_point(p, n)[: p.size] - minimiser(p, n)).max())
         for name, n in _networks().items()
     }
     worst = max(apart.values())
@@ -164,16 +162,11 @@ def error_function(assumed: Assumed) -> Result:
 )
 def matrix_blocks(assumed: Assumed) -> Result:
     """The matrix in front of the state derivative against differences of xi by y."""
-    network = network_of(assumed, "state_matrix", "penalty_form")
-    p, step = sample_problem(), 1e-7
+    network = network_settings(assumed, "state_matrix", "penalty_form")
+    p = sample_problem()
     y = rest_point(p, NetworkSettings(penalty=network.penalty))
     M = state_matrix(p, network, y)
-    differences = np.array(
-        [
-            (code_error(p, network, y + move) - code_error(p, network, y - move)) / (2 * step)
-            for move in step * np.eye(len(y))
-        ]
-    ).T
+    differences = central_differences(lambda at: code_error(p, network, at), y, 1e-7).T
     worst = _apart(M, differences)
     return Result(
         obtained={"derivative": worst},
@@ -218,28 +211,3 @@ def _sides(printed: Formula, p: Problem, network: NetworkSettings, y: np.ndarray
     """Left side less right side."""
     given = _named(p, network, y)
     return np.asarray(printed.value(0, given) - printed.value(1, given))
-
-
-def _minimiser(p: Problem, network: NetworkSettings) -> np.ndarray:
-    """Minimiser of the penalised objective among the velocities that satisfy the equality."""
-    basis = np.linalg.svd(p.A)[2][len(p.b) :].T
-    start = np.linalg.pinv(p.A) @ p.b
-    C = stacked(p)[0]
-
-    def slope(z: np.ndarray) -> np.ndarray:
-        x = start + basis @ z
-        return basis.T @ (x - p.target + C.T @ penalties(p, network, x)[:, 1])
-
-    def bend(z: np.ndarray) -> np.ndarray:
-        weights = penalties(p, network, start + basis @ z)[:, 2]
-        return basis.T @ (np.eye(p.size) + C.T @ (weights[:, None] * C)) @ basis
-
-    found = minimize(
-        lambda z: objective(p, network, start + basis @ z),
-        np.zeros(basis.shape[1]),
-        jac=slope,
-        hess=bend,
-        method="trust-exact",
-        options={"gtol": 1e-10, "maxiter": 500},
-    )
-    return start + basis @ found.x

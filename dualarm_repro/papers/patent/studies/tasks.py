@@ -7,28 +7,28 @@ from typing import Any
 
 import numpy as np
 
-from ...control.motion import Motion
-from ...control.neural.fixed_step import simulate_network
-from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import FORMS, Settings
-from ...control.simulate import simulate
-from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Study
-from ...ledger.comparison import Comparison
-from .constants import COARSE_STEP, CONTROL_STEP, SEED
-from .tasks import arm_pair, draw_task, naive_motion
+from ....control.frozen import arm_pair
+from ....control.joint_ranges import angle_excess, speed_excess
+from ....control.neural.fixed_step import simulate_network
+from ....control.neural.network_settings import NetworkSettings
+from ....control.random_tasks import admissible, draw_task, naive_motion
+from ....control.settings import FORMS, Settings
+from ....control.simulate import simulate
+from ....ledger import REGISTRY, Study
+from ....ledger.assumptions import Chosen
+from ....ledger.comparison import Comparison
+from ..document import COARSE_STEP, CONTROL_STEP, RADII, SEED, redundant_arm
 
-DRAWS = 6000
 #: What every draw is made with; the paths take as long as those of the frozen scenarios.
-SETTINGS: dict[str, Any] = {
-    "robot": "panda",
-    "base_distance": 0.6,
-    "radii": [0.10, 0.20],
-    "step": COARSE_STEP,
-    "network_step": CONTROL_STEP,
-    "outer": Settings().outer,
-    "inner": Settings().inner,
-}
+SETTINGS = Chosen(
+    "patent",
+    ("robot", "base_distance"),
+    radii=list(RADII),
+    step=COARSE_STEP,
+    network_step=CONTROL_STEP,
+    outer=Settings().outer,
+    inner=Settings().inner,
+)
 
 _CHATTER = "motion with slack chatters between its rows, which amplifies round-off"
 #: Columns of the study that another processor may give otherwise.
@@ -41,7 +41,7 @@ DELICATE = (
 
 def cells() -> list[dict[str, int]]:
     """One cell a draw."""
-    return [{"draw": k} for k in range(DRAWS)]
+    return [{"draw": k} for k in range(REGISTRY.assumption("patent.task_selection"))]
 
 
 def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
@@ -49,22 +49,22 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
 
     A task counts if its start is outside the outer range and the pseudo-inverse follows its path.
     """
-    system, settings = arm_pair(SETTINGS["robot"], SETTINGS["base_distance"]), Settings()
-    task = draw_task(system, rng, tuple(SETTINGS["radii"]))
+    system = arm_pair(redundant_arm(SETTINGS["robot"]), SETTINGS["base_distance"])
+    settings, task = Settings(), draw_task(system, rng, RADII)
     naive = naive_motion(system, task, settings)
-    found: dict[str, Any] = {"counts": naive is not None}
-    if naive is None:
-        return found
-    found |= {
+    if not admissible(naive, settings):
+        return {"counts": False}
+    found: dict[str, Any] = {
+        "counts": True,
         "naive_distance": naive.smallest_distance,
-        "naive_beyond_angle": _beyond_angle(system, naive),
+        "naive_beyond_angle": angle_excess(system, naive.q),
         "collides": naive.smallest_distance < 0,
     }
     if not found["collides"]:
         return found
-    circles = task.circles(system)
+    parts = (system, task.circles(system), task.q0)
     for form in FORMS:
-        motion = simulate(system, circles, task.q0, Settings(form=form), dt=COARSE_STEP)
+        motion = simulate(*parts, Settings(form=form), dt=COARSE_STEP)
         found |= {
             f"{form}_completed": motion.completed,
             f"{form}_distance": motion.smallest_distance,
@@ -72,11 +72,9 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
             f"{form}_acceleration": motion.peak_acceleration,
             f"{form}_energy": motion.energy,
         }
-    limited = simulate(system, circles, task.q0, Settings(avoid=False), dt=COARSE_STEP)
-    slack = simulate(system, circles, task.q0, settings, dt=COARSE_STEP, slack=True)
-    network = simulate_network(
-        system, circles, task.q0, settings, NetworkSettings(), dt=CONTROL_STEP
-    )
+    limited = simulate(*parts, Settings(avoid=False), dt=COARSE_STEP)
+    slack = simulate(*parts, settings, dt=COARSE_STEP, slack=True)
+    network = simulate_network(*parts, settings, NetworkSettings(), dt=CONTROL_STEP)
     return found | {
         "limits_completed": limited.completed,
         "slack_completed": slack.completed,
@@ -86,15 +84,9 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
         "network_completed": network.completed,
         "network_distance": network.smallest_distance,
         "network_error": network.largest_error,
-        "network_beyond_angle": _beyond_angle(system, network),
-        "network_beyond_speed": float((np.abs(network.x) - system.arrays.speed).max()),
+        "network_beyond_angle": angle_excess(system, network.q),
+        "network_beyond_speed": speed_excess(system, network.x),
     }
-
-
-def _beyond_angle(system: ArmSystem, motion: Motion) -> float:
-    """Largest excess over an angle limit, negative inside [rad]."""
-    arrays = system.arrays
-    return max(float((motion.q - arrays.upper).max()), float((arrays.lower - motion.q).max()))
 
 
 TASKS = REGISTRY.keeps(

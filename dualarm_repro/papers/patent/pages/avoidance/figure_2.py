@@ -8,27 +8,19 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...control.motion import Motion
-from ...control.settings import Settings
-from ...control.simulate import pseudo_inverse
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
-from ...view.arm_drawings import skeleton
-from ...view.control_figures import comparison_figure
-from ...view.scene3d import Scene3D
-from ...view.style import MASTER, SLAVE
-from .scenario import Frozen, crossing, run, settings_of
+from .....control.frozen import FrozenScenario
+from .....control.motion import Motion
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....view.arm_drawings import skeleton
+from .....view.control_figures import comparison_figure
+from .....view.scene3d import Scene3D
+from .....view.style import MASTER, SLAVE
+from ...document import run
+from ...reading import AVOIDANCE, controller_settings, crossing
 
 checks = partial(REGISTRY.checks, page="patent/avoidance")
-
-#: Assumptions on the avoidance rows.
-AVOIDANCE = (
-    "avoidance_form",
-    "pair_selection",
-    "damper_law",
-    "damper_gain",
-    "outer_range",
-    "inner_range",
-)
 
 
 @checks(
@@ -50,7 +42,7 @@ AVOIDANCE = (
 def comparison(assumed: Assumed) -> Result:
     """Figure 2: one task with the avoidance rows off and on."""
     scenario = crossing(assumed, "base_distance", "duration", "time_law", "capsules")
-    settings = settings_of(assumed, *AVOIDANCE, "feedback_gain")
+    settings = controller_settings(assumed, *AVOIDANCE, "feedback_gain")
     dt = assumed["time_step"]
     naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
     fastest = _path_speed(scenario)
@@ -90,7 +82,7 @@ def comparison(assumed: Assumed) -> Result:
     )
 
 
-def _path_speed(scenario: Frozen) -> float:
+def _path_speed(scenario: FrozenScenario) -> float:
     """Largest speed of a tip along its path [m/s]."""
     velocities = [scenario.circles.at(t)[1] for t in np.linspace(0.0, scenario.period, 201)]
     return float(np.linalg.norm(velocities, axis=-1).max())
@@ -107,20 +99,22 @@ def _measures(motion: Motion) -> tuple[float, ...]:
     )
 
 
-def _skeletons(scenario: Frozen, q: np.ndarray) -> list[np.ndarray]:
+def _skeletons(scenario: FrozenScenario, q: np.ndarray) -> list[np.ndarray]:
     arms = scenario.system.arms
     return [
         skeleton(p.arm, part, p.placement) for p, part in zip(arms, np.split(q, 2), strict=True)
     ]
 
 
-def _tip_paths(scenario: Frozen) -> list[np.ndarray]:
+def _tip_paths(scenario: FrozenScenario) -> list[np.ndarray]:
     times = np.linspace(0.0, scenario.period, 121)
     points = np.array([scenario.circles.at(t)[0] for t in times])
     return [points[:, 0], points[:, 1]]
 
 
-def _comparison_figure(scenario: Frozen, settings: Settings, naive: Motion, motion: Motion) -> Any:
+def _comparison_figure(
+    scenario: FrozenScenario, settings: Settings, naive: Motion, motion: Motion
+) -> Any:
     worst = int(naive.distance.argmin())
     at = min(worst, len(motion.q) - 1)
     paths = _tip_paths(scenario)
@@ -137,7 +131,7 @@ def _comparison_figure(scenario: Frozen, settings: Settings, naive: Motion, moti
     )
 
 
-def _scene(scenario: Frozen, motion: Motion) -> Scene3D:
+def _scene(scenario: FrozenScenario, motion: Motion) -> Scene3D:
     made = Scene3D(f"{scenario.title}: the motion with avoidance.", camera=(1.9, 0.4, 1.3))
     every = max(1, round(0.1 / motion.dt))
     path = motion.q[::every]

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
 import numpy as np
 import pandas as pd
 
-from ...control.neural.network_settings import NetworkSettings
-from ...control.neural.penalty import PENALTIES, penalty
-from ...control.problem import Problem
-from ...control.solvers import solve
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
-from ...view.control_figures import penalty_figure
-from .penalised import code_error, penalties, rest_point, sample_problem, stacked
-from .scenario import network_of
+from .....control.neural.network_settings import NetworkSettings
+from .....control.neural.optimality import optimality
+from .....control.neural.penalised import code_error, inequalities, penalties, rest_point
+from .....control.neural.penalty import PENALTIES, penalty
+from .....control.problem import Problem
+from .....control.solvers import solve
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from .....view.control_figures import penalty_figure
+from ...problems import sample_problem
+from ...reading import PENALTY, network_settings
 
 checks = partial(REGISTRY.checks, page="patent/network")
-_NAMES = ("penalty_form", "penalty_factor", "penalty_sharpness")
 #: Factors by which the penalty is stiffened.
 STIFFER = (1.0, 10.0, 100.0)
 
@@ -83,7 +85,7 @@ def penalty_function(assumed: Assumed) -> Result:
 )
 def stacked_inequalities(assumed: Assumed) -> Result:
     """C x <= d with C = [G; I; -I], and the multipliers that the penalty stands for."""
-    network = network_of(assumed, *_NAMES)
+    network = network_settings(assumed, *PENALTY)
     p = sample_problem()
     silent = _without_effect(p, network)
     exact = solve(p)
@@ -93,7 +95,7 @@ def stacked_inequalities(assumed: Assumed) -> Result:
         stiffer = stiffened(network, factor)
         push = penalties(p, stiffer, rest_point(p, stiffer)[: p.size])[:, 1]
         miss.append(float(np.abs(push - multipliers).max() / multipliers.max()))
-    count = len(stacked(p)[1])
+    count = len(inequalities(p)[1])
     return Result(
         obtained={
             "without_effect": silent,
@@ -126,7 +128,7 @@ def stacked_inequalities(assumed: Assumed) -> Result:
 )
 def penalised_problem(assumed: Assumed) -> Result:
     """Distance of the penalised minimiser from the exact one as p and sigma grow."""
-    network = network_of(assumed, *_NAMES)
+    network = network_settings(assumed, *PENALTY)
     p, exact = sample_problem(), solve(sample_problem())
     rows, equality = [], 0.0
     for factor in STIFFER:
@@ -155,8 +157,8 @@ def penalised_problem(assumed: Assumed) -> Result:
 def stiffened(network: NetworkSettings, factor: float) -> NetworkSettings:
     """The same form nearer to its hard limit."""
     quadratic = network.penalty in ("quadratic", "squared_softplus")
-    return NetworkSettings(
-        penalty=network.penalty,
+    return replace(
+        network,
         # The exponential keeps p s, so that a multiplier of one stays at g = 0.
         factor=network.factor
         * (factor if quadratic else 1.0 / factor if network.penalty == "exponential" else 1.0),
@@ -199,22 +201,16 @@ def _properties(form: str, p: float, s: float) -> dict[str, float]:
 
 def _without_effect(p: Problem, network: NetworkSettings) -> int:
     """Inequalities whose bound can be moved to a violation without a change of the code's error."""
-    C, d = stacked(p)
+    C, d = inequalities(p)
     y = rest_point(p, network)
     before, silent, k = code_error(p, network, y), 0, len(p.h)
     for row in range(len(d)):
         bound = d.copy()
         bound[row] = C[row] @ y[: p.size] - 1.0
-        moved = object.__new__(Problem)
-        parts = {
-            **vars(p),
-            "h": bound[:k],
-            "upper": bound[k : k + p.size],
-            "lower": -bound[k + p.size :],
-        }
-        for name, value in parts.items():
-            object.__setattr__(moved, name, value)
-        after = code_error(moved, network, y)
+        # A lower bound above the upper one is no problem to pose, but the error is still defined.
+        h, upper, lower = np.split(bound, [k, k + p.size])
+        after = np.empty(len(y))
+        optimality(network.numbers(), p.target, p.A, p.b, p.G, h, -lower, upper, y, after)
         silent += bool(np.abs(after - before).max() < 1e-9 * network.factor)
     return silent
 

@@ -1,31 +1,44 @@
-"""The problem: bounds of the joints, avoidance rows, the QP."""
+"""The programme: bounds of the joints, avoidance rows, the QP."""
 
 from __future__ import annotations
 
+import inspect
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from example_robot_data import getModelPath
 
-from ...control.controller import VelocityController
-from ...control.problem import NoSolution
-from ...control.recorded import recorded_problems
-from ...control.settings import Settings
-from ...control.solvers import SOLVERS, solve
-from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
-from ...scene.clearance import distances
-from .constants import COARSE_STEP, SEED
-from .equations import STILL, random_configuration
-from .mesh_check import mesh_excess
-from .scenario import Frozen, crossing, frozen, run, settings_of
+from .....control.controller import VelocityController
+from .....control.frozen import FrozenScenario
+from .....control.joint_ranges import random_configuration
+from .....control.mesh_containment import mesh_excess
+from .....control.problem import NoSolution
+from .....control.recorded import recorded_problems
+from .....control.settings import Settings
+from .....control.solvers import SOLVERS, solve
+from .....control.statement import statement
+from .....control.system import ArmSystem
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from .....scene.clearance import distances
+from .....tracking import memo
+from ...document import COARSE_STEP, SEED, frozen, redundant_arm, run
+from ...reading import LIMITS, controller_settings, crossing
+from .velocities import STILL
 
 checks = partial(REGISTRY.checks, page="patent/problem")
 _AGREEMENT = 1e-5  # [rad/s] iterative solvers end at their tolerance
-_DIFFERENCE = 1e-6  # [rad] step of central differences
 _TICKS = 400  # steps at a bound, after which every joint is at its limit
 _STARTS = 5  # random configurations from which joints run at a bound
 _MOTIONS = 50  # random motions against the rows
+_CHECKED = 8  # configurations in which capsules have to contain meshes
+#: Robot to the URDF whose meshes its capsules have to contain.
+URDFS = {
+    "panda": "panda_description/urdf/panda.urdf",
+    "xarm7": "xarm_description/urdf/xarm7.urdf",
+}
 
 
 @checks(
@@ -40,7 +53,7 @@ _MOTIONS = 50  # random motions against the rows
 )
 def joint_limits(assumed: Assumed) -> Result:
     """Steps at either bound from random configurations, until the joints are at their limits."""
-    settings = settings_of(assumed, "limit_form", "limit_gain", "limit_margin")
+    settings = controller_settings(assumed, *LIMITS)
     system, rng = frozen("limits").system, np.random.default_rng(SEED)
     arrays, controller = system.arrays, VelocityController(system, settings)
     angle, speed, standing = -np.inf, -np.inf, -np.inf
@@ -92,13 +105,13 @@ def joint_limits(assumed: Assumed) -> Result:
 def avoidance_rows(assumed: Assumed) -> Result:
     """Rows, differences of the distances, and what motion within the rows does to them."""
     scenario = crossing(assumed, "capsules")
-    settings = settings_of(assumed, "avoidance_form", "pair_selection")
+    settings = controller_settings(assumed, "avoidance_form", "pair_selection")
     near = run(scenario, Settings(), COARSE_STEP)
     middle = 0.5 * (Settings().inner + Settings().outer)
     q = near.q[int(np.abs(near.distance - middle).argmin())]
     gradient = _worst_gradient(scenario.system)
     rows, faster = _closing(scenario, settings, q)
-    excess = max(mesh_excess(assumed["robot"], assumed["capsules"]).values())
+    excess = max(uncovered(assumed["robot"], assumed["capsules"]).values())
     return Result(
         obtained={
             "gradient": gradient,
@@ -169,13 +182,20 @@ def quadratic_program(assumed: Assumed) -> Result:
     )
 
 
-def angle_excess(scenario: Frozen, q: np.ndarray) -> float:
-    """Largest excess of joint angles (N, n) over their limits, negative inside [rad]."""
-    arrays = scenario.system.arrays
-    return float(max((q - arrays.upper).max(), (arrays.lower - q).max()))
+def statement_source() -> str:
+    """Code that states the problem for the reader, without its docstring."""
+    return inspect.getsource(statement).split('"""')[-1]
 
 
-def _closing(scenario: Frozen, settings: Settings, q: np.ndarray) -> tuple[int, float]:
+@memo()
+def uncovered(robot: str, capsules: str = "widened") -> dict[str, float]:
+    """How far each moving link's mesh sticks out of the capsules, negative inside [m]."""
+    arm, path = redundant_arm(robot, capsules), Path(getModelPath(URDFS[robot])) / URDFS[robot]
+    configurations = arm.random_configurations(_CHECKED, np.random.default_rng(SEED))
+    return mesh_excess(arm, path, configurations)
+
+
+def _closing(scenario: FrozenScenario, settings: Settings, q: np.ndarray) -> tuple[int, float]:
     """Rows, and by how much a distance below d1 closes faster than beta(d) within them [m/s]."""
     system = scenario.system
     p = VelocityController(system, settings).problem(q, system.tips(q), STILL)
@@ -195,16 +215,16 @@ def _closing(scenario: Frozen, settings: Settings, q: np.ndarray) -> tuple[int, 
 def _worst_gradient(system: ArmSystem) -> float:
     """Largest difference of row gradients to central differences over random configurations."""
     controller = VelocityController(system, Settings(outer=10.0))
-    rng, worst, n = np.random.default_rng(SEED), 0.0, system.nq
+    rng, worst = np.random.default_rng(SEED), 0.0
     for _ in range(5):
         q = random_configuration(system, rng)
         rows = controller.problem(q, system.tips(q), STILL).G
-        d = distances(system.scene, q + _DIFFERENCE * np.vstack([np.eye(n), -np.eye(n)]))
-        worst = max(worst, float(np.abs((d[:n] - d[n:]).T / (2 * _DIFFERENCE) + rows).max()))
+        gradients = central_differences(lambda at: distances(system.scene, at), q).T
+        worst = max(worst, float(np.abs(gradients + rows).max()))
     return worst
 
 
-def _impossible(controller: VelocityController, scenario: Frozen) -> bool:
+def _impossible(controller: VelocityController, scenario: FrozenScenario) -> bool:
     """Whether a task beyond the speed limits is refused, or answered with a reported slack."""
     try:
         tips = scenario.system.tips(scenario.q0)

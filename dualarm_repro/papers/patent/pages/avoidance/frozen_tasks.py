@@ -1,4 +1,4 @@
-"""The claims on limits, on the two ranges and against the pseudo-inverse."""
+"""Promises on frozen tasks: joint limits, the two ranges, and against the pseudo-inverse."""
 
 from __future__ import annotations
 
@@ -8,20 +8,21 @@ from time import perf_counter
 
 import numpy as np
 
-from ...control.controller import VelocityController
-from ...control.motion import Motion
-from ...control.neural.fixed_step import simulate_network
-from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import Settings
-from ...control.simulate import pseudo_inverse
-from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result
-from ...tracking import memo
-from ...view.control_figures import damper_figure
-from .constants import COARSE_STEP, CONTROL_STEP
-from .costs import control_operations, network_control_operations
-from .program import angle_excess
-from .random_task_claims import counted_tasks
-from .scenario import Frozen, frozen, run, settings_of
+from .....control.controller import VelocityController
+from .....control.frozen import FrozenScenario
+from .....control.joint_ranges import angle_excess, speed_excess
+from .....control.motion import Motion
+from .....control.neural.fixed_step import simulate_network
+from .....control.neural.network_settings import NetworkSettings
+from .....control.operations import control_operations, network_control_operations
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
+from .....tracking import memo
+from .....view.control_figures import damper_figure
+from ...document import COARSE_STEP, CONTROL_STEP, frozen, run
+from ...reading import LIMITS, controller_settings
+from .random_tasks import counted_tasks
 
 checks = partial(REGISTRY.checks, page="patent/avoidance")
 
@@ -44,11 +45,11 @@ checks = partial(REGISTRY.checks, page="patent/avoidance")
 )
 def respects_limits(assumed: Assumed) -> Result:
     """Angle limits on a task that drives joints to them, speed limits on the same task run fast."""
-    settings = settings_of(assumed, "limit_form", "limit_gain", "limit_margin")
+    settings = controller_settings(assumed, *LIMITS)
     slow, fast = frozen("limits"), frozen("limits", duration=assumed["fast_duration"])
-    angles = [angle_excess(slow, m.q) for m in _three(slow, settings, COARSE_STEP)]
+    angles = [angle_excess(slow.system, m.q) for m in _three(slow, settings, COARSE_STEP)]
     motions = _three(fast, settings, CONTROL_STEP)
-    speeds = [float((np.abs(m.x) - fast.system.arrays.speed).max()) for m in motions]
+    speeds = [speed_excess(fast.system, m.x) for m in motions]
     return Result(
         obtained={
             **dict(zip(("naive_excess", "angle_excess", "network_excess"), angles, strict=True)),
@@ -89,7 +90,7 @@ def respects_limits(assumed: Assumed) -> Result:
 def two_ranges(assumed: Assumed) -> Result:
     """Distance, rows, approach and bound along the frozen task; a start inside the inner range."""
     names = ("outer_range", "inner_range", "damper_law", "damper_gain", "pair_selection")
-    settings, scenario = settings_of(assumed, *names), frozen("crossing")
+    settings, scenario = controller_settings(assumed, *names), frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)
     controller = VelocityController(scenario.system, settings)
     approach, bound = _nearest_pair(scenario, controller, motion)
@@ -140,7 +141,7 @@ def two_ranges(assumed: Assumed) -> Result:
 )
 def against_pseudo_inverse(assumed: Assumed) -> Result:
     """Violations of both on the same tasks, and the operations of one step in its period."""
-    settings = settings_of(assumed, "avoidance_form", "limit_form")
+    settings = controller_settings(assumed, "avoidance_form", "limit_form")
     dt, near, far = assumed["time_step"], frozen("crossing"), frozen("limits")
     naive = [run(s, pseudo_inverse(settings), dt) for s in (near, far)]
     exact = [run(s, settings, dt) for s in (near, far)]
@@ -152,8 +153,8 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
         obtained={
             "naive_distance": naive[0].smallest_distance,
             "distance": exact[0].smallest_distance,
-            "naive_excess": angle_excess(far, naive[1].q),
-            "excess": angle_excess(far, exact[1].q),
+            "naive_excess": angle_excess(far.system, naive[1].q),
+            "excess": angle_excess(far.system, exact[1].q),
             "period_share": period,
             **{f"{name}_operations": count for name, count in steps.items()},
             "random_tasks_beyond_limits": leave,
@@ -174,17 +175,18 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
     )
 
 
-def _three(scenario: Frozen, settings: Settings, dt: float) -> tuple[Motion, Motion, Motion]:
+def _three(
+    scenario: FrozenScenario, settings: Settings, dt: float
+) -> tuple[Motion, Motion, Motion]:
     """Motions by the pseudo-inverse, by the QP with slack, and by the network."""
-    arguments = (scenario.system, scenario.circles, scenario.q0, settings, NetworkSettings())
     return (
         run(scenario, pseudo_inverse(settings), dt),
         run(scenario, settings, dt, slack=True),
-        simulate_network(*arguments, dt=dt),
+        simulate_network(*scenario.parts, settings, NetworkSettings(), dt=dt),
     )
 
 
-def _changed(scenario: Frozen, settings: Settings, motion: Motion) -> np.ndarray:
+def _changed(scenario: FrozenScenario, settings: Settings, motion: Motion) -> np.ndarray:
     """How far each joint velocity is from the one without avoidance at the same place [rad/s]."""
     controller = VelocityController(scenario.system, replace(settings, avoid=False))
     return np.array(
@@ -204,13 +206,15 @@ def _step_operations(settings: Settings) -> dict[str, float]:
     q, t = motion.q[k], float(motion.time[k])
     y = np.concatenate([motion.x[k], np.zeros(3 * len(scenario.system.arms))])
     return {
-        "qp": control_operations(scenario, settings, q, t),
-        "network": network_control_operations(scenario, settings, q, t, y),
+        "qp": control_operations(*scenario.parts, settings, q, t),
+        "network": network_control_operations(
+            *scenario.parts, settings, NetworkSettings(), CONTROL_STEP, q, t, y
+        ),
     }
 
 
 def _nearest_pair(
-    scenario: Frozen, controller: VelocityController, motion: Motion
+    scenario: FrozenScenario, controller: VelocityController, motion: Motion
 ) -> tuple[np.ndarray, np.ndarray]:
     """Approach of the row with the least room, and its bound, at every step; NaN without."""
     approach, bound = np.full((2, len(motion.x)), np.nan)
@@ -222,7 +226,7 @@ def _nearest_pair(
     return approach, bound
 
 
-def _step_seconds(scenario: Frozen, settings: Settings) -> float:
+def _step_seconds(scenario: FrozenScenario, settings: Settings) -> float:
     """Time of one step within the compiled loop [s], the best of three runs."""
     times = []
     for _ in range(3):

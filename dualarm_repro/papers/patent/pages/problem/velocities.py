@@ -6,32 +6,30 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
-import pinocchio as pin
 
-from ...control.controller import VelocityController
-from ...control.problem import Problem
-from ...control.settings import Settings
-from ...control.simulate import pseudo_inverse
-from ...control.system import ArmSystem
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from ...ledger.formula import Formula, parse
-from .constants import COARSE_STEP, SEED
-from .scenario import CROSSING, Frozen, frozen, run
+from .....control.controller import VelocityController
+from .....control.frozen import FrozenScenario
+from .....control.joint_ranges import random_configuration
+from .....control.redundancy import inertia_weighted, self_motion
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.formula import Formula, parse
+from ...document import COARSE_STEP, CROSSING, SEED, frozen, run
 
 checks = partial(REGISTRY.checks, page="patent/problem")
 STILL = np.zeros((2, 3))
-_DIFFERENCE = 1e-6  # [rad] step of central differences
 
 
 @checks(
     "patent.eq_forward",
     rules=[
         Residual("apart", "both printed sides agree, to [m]", high=1e-12),
-        Bounded("other_solution", "another solution for the same r is this far "
-            "[rad]", low="other"),
+        Bounded("other_solution", "another solution for the same r is this far [rad]", low="other"),
         Residual("same_tips", "and has the same r, to [m]", high=1e-6),
     ],
-)  # fmt: skip
+)
 def forward_map(assumed: Assumed) -> Result:
     """f of Pinocchio and r of the controller in the printed equation; a second theta."""
     printed = parse(REGISTRY.printed("patent.eq_forward")["formula"])
@@ -74,11 +72,8 @@ def velocity_map(assumed: Assumed) -> Result:
         for _ in range(20):
             q = random_configuration(system, rng)
             J = controller.problem(q, system.tips(q), STILL).A
-            for k in range(system.nq):
-                step = _DIFFERENCE * np.eye(system.nq)[k]
-                column = (system.tips(q + step) - system.tips(q - step)).ravel()
-                difference = np.abs(column / (2 * _DIFFERENCE) - J[:, k]).max()
-                worst = max(worst, float(difference))
+            columns = central_differences(lambda at, s=system: s.tips(at).ravel(), q)
+            worst = max(worst, float(np.abs(columns.T - J).max()))
             n = system.arrays.start[1]
             blocks = (J[:3, n:], J[3:, :n])
             coupling = max(coupling, *(float(np.abs(block).max()) for block in blocks))
@@ -111,16 +106,20 @@ def least_velocity(assumed: Assumed) -> Result:
         q, velocity = random_configuration(system, rng), rng.normal(size=(2, 3))
         p = controller.problem(q, system.tips(q), velocity)
         least = np.linalg.pinv(p.A) @ p.b
-        x = least if assumed["energy_weight"] == "identity" else _inertia_weighted(system, q, p)
+        x = least if assumed["energy_weight"] == "identity" else inertia_weighted(system, q, p)
         worst = max(worst, float(np.abs(x - least).max()))
         excess = max(excess, float(np.linalg.norm(x) - np.linalg.norm(least)))
         if assumed["energy_weight"] == "identity":
-            worst = max(
-                worst, float(np.abs(controller.velocity(q, system.tips(q), velocity) - x).max())
-            )
+            found = controller.velocity(q, system.tips(q), velocity)
+            worst = max(worst, float(np.abs(found - x).max()))
     drifts = {weight: _drift(scenario, weight) for weight in (0.0, 2.0)}
     return Result(
-        obtained={"excess": excess, "to_pseudo_inverse": worst, **_named(drifts)},
+        obtained={
+            "excess": excess,
+            "to_pseudo_inverse": worst,
+            "drift_free": drifts[0.0],
+            "drift_repetitive": drifts[2.0],
+        },
         table=pd.DataFrame(
             [(turn + 1, *(drifts[w][turn] for w in drifts)) for turn in range(5)],
             columns=["turn", "drift [rad]", "drift with repetitive term [rad]"],
@@ -135,13 +134,13 @@ def least_velocity(assumed: Assumed) -> Result:
     )
 
 
-def _scenarios() -> list[Frozen]:
+def _scenarios() -> list[FrozenScenario]:
     """The frozen crossing of every declared robot."""
     robots = REGISTRY.declared("patent.robot", "choices").choices
     return [frozen(CROSSING[robot]) for robot in robots]
 
 
-def _forward(printed: Formula, scenario: Frozen) -> tuple[float, float, float]:
+def _forward(printed: Formula, scenario: FrozenScenario) -> tuple[float, float, float]:
     """Difference of both sides, distance of a second solution and the difference of its tips."""
     system, q = scenario.system, scenario.q0
     halves = np.split(q, 2)
@@ -152,51 +151,11 @@ def _forward(printed: Formula, scenario: Frozen) -> tuple[float, float, float]:
     controller.velocity(q, tips, STILL)
     given = {"f": f, "r": controller.tips}
     apart = float(np.abs(printed.value(0, given) - printed.value(1, given)).max())
-    other = _self_motion(system, q)
+    other = self_motion(system, q)
     same = float(np.abs(system.tips(other) - tips).max())
     return apart, float(np.linalg.norm(other - q)), same
 
 
-def random_configuration(system: ArmSystem, rng: np.random.Generator) -> np.ndarray:
-    """Joint angles uniform in their ranges, at most half a turn either way."""
-    arrays = system.arrays
-    return rng.uniform(arrays.lower.clip(min=-np.pi), arrays.upper.clip(max=np.pi))
-
-
-def _self_motion(system: ArmSystem, q: np.ndarray) -> np.ndarray:
-    """A posture with the same tips, reached along the null space of J."""
-    controller = VelocityController(system, pseudo_inverse(Settings()))
-    tips, moved = system.tips(q), q.copy()
-    direction = np.ones(system.nq)
-    for _ in range(400):
-        p = controller.problem(moved, tips, STILL)
-        J = np.linalg.pinv(p.A)
-        moved = (
-            moved + 1e-2 * (direction - J @ (p.A @ direction)) / np.sqrt(system.nq) + 0.05 * J @ p.b
-        )
-    for _ in range(20):
-        p = controller.problem(moved, tips, STILL)
-        moved = moved + 0.1 * np.linalg.pinv(p.A) @ p.b
-    return moved
-
-
-def _inertia_weighted(system: ArmSystem, q: np.ndarray, p: Problem) -> np.ndarray:
-    """min x^T M(q) x under the task, M the joint-space inertia."""
-    W = np.zeros((system.nq, system.nq))
-    start = system.arrays.start
-    for k, placed in enumerate(system.arms):
-        part = slice(start[k], start[k + 1])
-        model = placed.arm.model
-        M = pin.crba(model, model.createData(), q[part])
-        W[part, part] = np.triu(M) + np.triu(M, 1).T
-    inverse = np.linalg.inv(W)
-    return inverse @ p.A.T @ np.linalg.solve(p.A @ inverse @ p.A.T, p.b)
-
-
-def _drift(scenario: Frozen, weight: float) -> list[float]:
+def _drift(scenario: FrozenScenario, weight: float) -> list[float]:
     motion = run(scenario, Settings(repetition=weight), COARSE_STEP, cycles=5)
     return motion.drift(scenario.period).tolist()
-
-
-def _named(drifts: dict[float, list[float]]) -> dict[str, list[float]]:
-    return {"drift_free": drifts[0.0], "drift_repetitive": drifts[2.0]}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ...tracking import memo
+from .....tracking import memo
 
 N, M, H = 3, 2, 4  # unknowns, equalities and inequalities of the symbolic problem
 
