@@ -11,7 +11,7 @@ import inspect
 import operator
 import textwrap
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,17 @@ _OPERATORS = {
     ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "truediv", ast.Pow: "pow",
 }  # fmt: skip
 _FUNCTIONS = ("exp", "expm1", "log", "log1p", "sqrt", "hypot", "tanh", "sinh", "sin", "cos")
+
+
+class Cost(NamedTuple):
+    """Operations on real numbers, and roots and elementary functions."""
+
+    operations: int
+    functions: int
+
+    def total(self, function_cost: float = 1.0) -> float:
+        """Operations, a function counted as so many."""
+        return self.operations + function_cost * self.functions
 
 
 class Instrument:
@@ -56,11 +67,11 @@ class Instrument:
                     scope[name] = self.twin(function.__globals__[name])
         return self._twins[function]
 
-    def count(self, kernel: Any, *arguments: Any, function_cost: float = 1.0) -> float:
-        """Operations of one call, a function counted as so many."""
-        before = self.operations + function_cost * self.functions
+    def cost(self, kernel: Any, *arguments: Any) -> Cost:
+        """What one call takes."""
+        operations, functions = self.operations, self.functions
         self.twin(kernel)(*arguments)
-        return self.operations + function_cost * self.functions - before
+        return Cost(self.operations - operations, self.functions - functions)
 
     def _noted(self, function: Callable[..., Any], name: str) -> Callable[..., Any]:
         def noted(*arguments: Any) -> Any:

@@ -14,7 +14,7 @@ from .....control.joint_ranges import angle_excess, speed_excess
 from .....control.motion import Motion
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
-from .....control.operations import control_operations, network_control_operations
+from .....control.operations import control_cost, network_control_cost
 from .....control.settings import Settings
 from .....control.simulate import pseudo_inverse
 from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
@@ -206,10 +206,10 @@ def _step_operations(settings: Settings) -> dict[str, float]:
     q, t = motion.q[k], float(motion.time[k])
     y = np.concatenate([motion.x[k], np.zeros(3 * len(scenario.system.arms))])
     return {
-        "qp": control_operations(*scenario.parts, settings, q, t),
-        "network": network_control_operations(
+        "qp": control_cost(*scenario.parts, settings, q, t).total(),
+        "network": network_control_cost(
             *scenario.parts, settings, NetworkSettings(), CONTROL_STEP, q, t, y
-        ),
+        ).total(),
     }
 
 

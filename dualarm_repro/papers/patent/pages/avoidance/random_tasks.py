@@ -8,11 +8,7 @@ import numpy as np
 import pandas as pd
 
 from .....control.neural.network_settings import NetworkSettings
-from .....control.operations import (
-    exact_operations,
-    network_operations,
-    pseudo_inverse_operations,
-)
+from .....control.operations import exact_cost, network_cost, pseudo_inverse_cost
 from .....control.settings import FORMS
 from .....ledger import REGISTRY, Assumed, Generally, Result, Share
 from .....view.control_figures import shares_figure
@@ -152,9 +148,9 @@ def completes(assumed: Assumed) -> Result:
 def slow_pseudo_inverse(assumed: Assumed) -> Result:
     """Operations of the pseudo-inverse against the cheaper of the exact QP and a network step."""
     problems, network = recorded(100), NetworkSettings(penalty="quadratic")
-    own = [pseudo_inverse_operations(p) for p in problems]
-    steps = [network_operations(p, network) for p in problems]
-    exact = [exact_operations(p) for p in problems]
+    own = [pseudo_inverse_cost(p).total() for p in problems]
+    steps = [network_cost(p, network).total() for p in problems]
+    exact = [exact_cost(p).total() for p in problems]
     slower = sum(a > min(b, c) for a, b, c in zip(own, steps, exact, strict=True))
     return Result(
         obtained={

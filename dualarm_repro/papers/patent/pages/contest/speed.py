@@ -8,18 +8,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .....control.contest import Entry, contest, newton_all
-from .....control.neural.network import network_rate
-from .....control.neural.network_settings import NetworkSettings
-from .....control.neural.primal_dual import iterate
-from .....control.operations import (
-    exact_operations,
-    network_operations,
-    primal_dual_operations,
+from .....control.contest import Entry, contest
+from .....control.convergence import (
+    first_within,
+    network_errors,
+    primal_dual_errors,
+    steps_in_a_row,
 )
-from .....control.problem import Problem
-from .....control.recorded import stacked
-from .....control.solvers import solve
+from .....control.instrument import Cost
+from .....control.neural.network_settings import NetworkSettings
+from .....control.operations import exact_cost, network_cost, primal_dual_cost
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
 from .....tracking import memo
 from .....view.control_figures import contest_figure, convergence_figure
@@ -53,10 +51,10 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
     # At rest both are near from the start; what is left has something to do.
     busy = [k for k, errors in enumerate(_primal_dual_errors()) if errors[0] > threshold]
     problems = [every[k] for k in busy]
-    steps = [_first(_network_errors(p, network), threshold) for p in problems]
-    reached_at = [_first(_primal_dual_errors()[k], threshold) for k in busy]
+    steps = [first_within(network_errors(p, network, _MOST_STEPS), threshold) for p in problems]
+    reached_at = [first_within(_primal_dual_errors()[k], threshold) for k in busy]
     others = [None if at is None else int(_counts()[at]) for at in reached_at]
-    costs = _network_costs(network.penalty, cost)
+    costs = [each.total(cost) for each in _network_costs(network.penalty)]
     own = [None if s is None else s * costs[k] for s, k in zip(steps, busy, strict=True)]
     rival = [
         None if count is None else count * _primal_dual_costs()[k]
@@ -117,10 +115,10 @@ def faster_than_numerical(assumed: Assumed) -> Result:
     """Operations on recorded problems in a row: exact active-set method against the network."""
     network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
     problems = busiest(IN_A_ROW)
-    steps, error = _steps_in_a_row(network, threshold)
+    steps, error = steps_in_a_row(problems, network, threshold, NEWTON_STEPS[-1])
     cost = assumed["function_cost"]
-    each = _network_costs(network.penalty, cost, in_a_row=True)
-    exact = _exact_costs(cost)
+    each = [one.total(cost) for one in _network_costs(network.penalty, in_a_row=True)]
+    exact = [one.total(cost) for one in _exact_costs()]
     arrives = error <= threshold
     saved = 1.0 - steps * sum(each) / sum(exact)
     return Result(
@@ -167,23 +165,6 @@ def _witnesses(own: list[float | None], rival: list[float | None]) -> list[dict[
     return list(found.values())
 
 
-def _first(errors: np.ndarray, threshold: float) -> int | None:
-    """Index of the first error within the threshold."""
-    below = np.flatnonzero(errors <= threshold)
-    return int(below[0]) if len(below) else None
-
-
-def _network_errors(p: Problem, network: NetworkSettings) -> np.ndarray:
-    """|x - x*|_inf before each step of unit gain, from zero."""
-    size, exact = p.size + len(p.b), solve(p).x
-    y, rate, still, errors = np.zeros(size), np.empty(size), np.zeros(size), []
-    for _ in range(_MOST_STEPS):
-        errors.append(float(np.abs(y[: p.size] - exact).max()))
-        network_rate(network.numbers(), 1.0, still, *p.parts, y, rate)
-        y += rate
-    return np.array(errors)
-
-
 @memo()
 def _counts() -> np.ndarray:
     """Numbers of iterations at which the primal-dual network is looked at."""
@@ -192,65 +173,25 @@ def _counts() -> np.ndarray:
 
 @memo()
 def _primal_dual_errors() -> list[np.ndarray]:
-    """|x - x*|_inf at those numbers of iterations from zero, for every recorded problem."""
-    found = []
-    for p in recorded(100):
-        exact, u, done, errors = solve(p).x, np.zeros(p.size + len(p.b) + len(p.h)), 0, []
-        for count in _counts():
-            iterate(*p.parts, u, int(count) - done, 0.0)
-            done = int(count)
-            errors.append(float(np.abs(u[: p.size] - exact).max()))
-        found.append(np.array(errors))
-    return found
+    """Errors at those numbers of iterations, for every recorded problem."""
+    return [primal_dual_errors(p, _counts()) for p in recorded(100)]
 
 
 @memo(64)
-def _network_costs(penalty: str, function_cost: float, in_a_row: bool = False) -> list[float]:
+def _network_costs(penalty: str, in_a_row: bool = False) -> list[Cost]:
     """A step of the network on each problem; it does not depend on p and sigma."""
-    network = NetworkSettings(penalty=penalty)
-    counted = _counted_steps(network, in_a_row)
-    return [operations + function_cost * functions for operations, functions in counted]
-
-
-@memo(16)
-def _counted_steps(network: NetworkSettings, in_a_row: bool) -> list[tuple[float, float]]:
-    """Operations and functions of a step on each problem."""
     problems = busiest(IN_A_ROW) if in_a_row else recorded(100)
-    alone = [network_operations(p, network, 0.0) for p in problems]
-    return [
-        (rest, network_operations(p, network) - rest)
-        for rest, p in zip(alone, problems, strict=True)
-    ]
+    return [network_cost(p, NetworkSettings(penalty=penalty)) for p in problems]
 
 
 @memo()
 def _primal_dual_costs() -> list[float]:
-    return [primal_dual_operations(p) for p in recorded(100)]
-
-
-def _exact_costs(function_cost: float) -> list[float]:
-    return [operations + function_cost * functions for operations, functions in _counted_exact()]
+    return [primal_dual_cost(p).total() for p in recorded(100)]
 
 
 @memo()
-def _counted_exact() -> list[tuple[float, float]]:
-    alone = [exact_operations(p, 0.0) for p in busiest(IN_A_ROW)]
-    return [
-        (rest, exact_operations(p) - rest) for rest, p in zip(alone, busiest(IN_A_ROW), strict=True)
-    ]
-
-
-def _steps_in_a_row(network: NetworkSettings, threshold: float) -> tuple[int, float]:
-    """Least steps a problem that reach the threshold, or those that come nearest, and the error."""
-    problems = busiest(IN_A_ROW)
-    exact, x = np.array([solve(p).x for p in problems]), np.empty((IN_A_ROW, problems[0].size))
-    data, tried = stacked(problems), []
-    for steps in range(1, NEWTON_STEPS[-1] + 1):
-        newton_all(data, network.numbers(), steps, x)
-        tried.append((steps, float(np.nan_to_num(np.abs(x - exact), nan=np.inf).max())))
-        if tried[-1][1] <= threshold:
-            return tried[-1]
-    return min(tried, key=lambda pair: pair[1])
+def _exact_costs() -> list[Cost]:
+    return [exact_cost(p) for p in busiest(IN_A_ROW)]
 
 
 @memo(8)
@@ -265,7 +206,7 @@ def _measured(network: NetworkSettings) -> dict[str, list[float]]:
 
 
 def _curves(index: int, network: NetworkSettings) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    own = _network_errors(recorded(100)[index], network)
+    own = network_errors(recorded(100)[index], network, _MOST_STEPS)
     return {
         "network": (np.arange(1, len(own)), own[1:]),
         "primal-dual network": (_counts()[1:], _primal_dual_errors()[index][1:]),
