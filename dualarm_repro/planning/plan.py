@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import pandas as pd
 
 from ..scene.bodies import PlacedArm
 from ..scene.moving import JointPath
+from .arm_path import ArmPath
 from .descent.certificate import Certificate
 from .descent.termination import StopReason
-from .field.control_points import end_effector
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Plan(ArmPath):
     """Result of a planner; row s belongs to step s, N = steps + 1 rows.
 
     Attributes
@@ -75,26 +74,6 @@ class Plan:
         return self.reason is StopReason.REACHED
 
     @property
-    def steps(self) -> int:
-        """Number of joint steps."""
-        return len(self.path) - 1
-
-    @cached_property
-    def tcp(self) -> np.ndarray:
-        """X, the flange in the world (N, 3) [m]."""
-        return end_effector(self.placed, self.path)
-
-    @property
-    def length(self) -> float:
-        """Length of the path in joint space, sum |dq| [rad]."""
-        return float(np.linalg.norm(np.diff(self.path, axis=0), axis=1).sum())
-
-    @property
-    def tcp_length(self) -> float:
-        """Length of the path of the flange [m]."""
-        return float(np.linalg.norm(np.diff(self.tcp, axis=0), axis=1).sum())
-
-    @property
     def total(self) -> np.ndarray:
         """Sum of the potentials (N,)."""
         return self.attractive + self.repulsive.sum(axis=1) + self.virtual
@@ -105,8 +84,7 @@ class Plan:
 
     def to_frame(self) -> pd.DataFrame:
         """One row per step: joints q1 ... [rad], flange x, y, z [m], potentials, clearances [m]."""
-        columns = {f"q{j + 1}": angle for j, angle in enumerate(self.path.T)}
-        columns |= dict(zip("xyz", self.tcp.T, strict=True))
+        columns = self.columns()
         columns |= {"attractive": self.attractive, "virtual": self.virtual, "active": self.active}
         for k, name in enumerate(self.point_names):
             columns[f"repulsive {name}"] = self.repulsive[:, k]

@@ -56,7 +56,7 @@ def code(member: StrEnum) -> int:
     return list(type(member)).index(member)
 
 
-class Settings(BaseModel):
+class PlannerSettings(BaseModel):
     """Base: keyword arguments only, immutable; unknown fields and wrong values are input errors."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
@@ -74,7 +74,7 @@ class Settings(BaseModel):
         return type(self)(**{**dict(self), **values})
 
 
-class Attraction(Settings):
+class Attraction(PlannerSettings):
     """Settings of k/2 (w_x |X - X_g|^2 + w_q |q - q_g|^2)."""
 
     gain: Positive = Field(description="k")
@@ -90,7 +90,7 @@ class Attraction(Settings):
         return self
 
 
-class Repulsion(Settings):
+class Repulsion(PlannerSettings):
     """Settings of k/2 (1/d - 1/d_0)^2 for d < d_0, continued linearly below a contact distance."""
 
     gain: Positive = Field(description="k")
@@ -105,7 +105,7 @@ class Repulsion(Settings):
         return self
 
 
-class VirtualPoint(Settings):
+class VirtualPoint(PlannerSettings):
     """Settings of a virtual attraction point k/2 (|X - X_v|^2 + w |q - q_v|^2) and its switch."""
 
     gain: Positive = Field(description="k")
@@ -118,7 +118,7 @@ class VirtualPoint(Settings):
     max_activations: Count = Field(description="how often it is tried")
 
 
-class Update(Settings):
+class Update(PlannerSettings):
     """Settings of the joint step."""
 
     rule: UpdateRule
@@ -138,7 +138,7 @@ class Update(Settings):
         return self
 
 
-class Trap(Settings):
+class Trap(PlannerSettings):
     """Settings of trap detection.
 
     ``block_means``: the mean configurations of two consecutive blocks of ``steps`` steps differ by
@@ -154,7 +154,7 @@ class Trap(Settings):
     )
 
 
-class Termination(Settings):
+class Termination(PlannerSettings):
     """Settings of the end of a plan: all tolerances that are given must hold."""
 
     joint_tolerance: Positive | None = Field(default=None, description="max_j |q_j - q_gj| [rad]")
@@ -172,7 +172,7 @@ class Termination(Settings):
         return self
 
 
-class APFSettings(Settings):
+class APFSettings(PlannerSettings):
     """Everything that defines an artificial potential field planner.
 
     Control points are a named set or frame numbers: 1 ... nq of the joints, nq + 1 of the flange.

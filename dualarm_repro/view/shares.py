@@ -9,11 +9,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from ..ledger.shares import Share
-from .style import BLUE, PALETTE, house_style
+from .style import BLACK, BLUE, PALETTE, house_style
 
 
-def shares_figure(rows: Mapping[str, Mapping[str, Share]], xlabel: str) -> Any:
-    """Horizontal bars: one row per name, one colour per group within it."""
+def shares_figure(
+    rows: Mapping[str, Mapping[str, Share]], xlabel: str, mark: tuple[float, str] | None = None
+) -> Any:
+    """Horizontal bars: one row per name, one colour per group within it; ``mark`` is a share to
+    compare with, and its name."""
     groups = list(dict.fromkeys(group for row in rows.values() for group in row))
     height = 0.8 / len(groups)
     with house_style():
@@ -27,12 +30,14 @@ def shares_figure(rows: Mapping[str, Mapping[str, Share]], xlabel: str) -> Any:
             )
             ax.barh(place, values, height=0.9 * height, color=PALETTE[g], label=group,
                     xerr=ends.T.clip(min=0.0), error_kw={"lw": 1, "capsize": 2})  # fmt: skip
+        if mark:
+            ax.axvline(mark[0], color=BLACK, ls="--", lw=1, label=mark[1])
         ax.set_yticks(range(len(rows)), list(rows))
         ax.invert_yaxis()
         ax.set(xlabel=xlabel, ylabel="", xlim=(0, 1.02))
         ax.set_ylabel(" ")
         ax.grid(axis="y", visible=False)
-        if len(groups) > 1:
+        if mark or len(groups) > 1:
             ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 

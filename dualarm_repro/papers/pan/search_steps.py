@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
-from ...view.flow_chart import flow_chart
+from ...view.diagrams import loop_chart
 from ...view.search_plots import history_figure
 from ...welding import genetic
 from .evolution import stored_runs
@@ -58,7 +58,7 @@ def chart(assumed: Assumed) -> Result:
             "chart is not in the text edition."
         ),
         alt="Flow chart: draw, evaluate, rank, decide, select, reproduce, and back to evaluate.",
-        figure=lambda: flow_chart(genetic.initialise, genetic.LOOP, genetic.finished),
+        figure=lambda: loop_chart(genetic.initialise, genetic.LOOP, genetic.finished),
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...ledger import Assumed, Is, Residual, Result, Role
-from ...planning.descent.problem import Problem
+from ...planning.descent.problem import PlanningProblem
 from ...planning.descent.virtual_point import initial
 from ...planning.field.control_points import control_points, end_effector, ends_of
 from ...view.shares import curve_figure
@@ -249,7 +249,7 @@ def rest_slope() -> float:
     return float(abs(slope(both, rest)).max())
 
 
-def _virtual(made: Problem, q: np.ndarray, joints: bool) -> np.ndarray:
+def _virtual(made: PlanningProblem, q: np.ndarray, joints: bool) -> np.ndarray:
     """The form printed for the goal, (9) or (13), with the virtual point and its gain (N,)."""
     point = made.settings.virtual_point
     centre, flange = np.array(point.position), end_effector(made.placed, q)
@@ -264,7 +264,7 @@ def _virtual(made: Problem, q: np.ndarray, joints: bool) -> np.ndarray:
     )
 
 
-def _squares(made: Problem, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _squares(made: PlanningProblem, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """|X - X_g|^2 and the sum of |theta_i - theta_gi|^2, (N,) each."""
     flange = end_effector(made.placed, q)
     return np.sum((flange - made.goal_point) ** 2, axis=1), np.sum((q - made.goal) ** 2, axis=1)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import Assumed, Bounded, Is, Residual, Result, Role
-from ...planning.descent.problem import Problem
+from ...planning.descent.problem import PlanningProblem
 from ...planning.field.control_points import end_effector
 from ...tracking import memo
 from .agreement import GRADIENT, VALUE, agreement, checks, choices, difference, worst
@@ -182,7 +182,7 @@ def _force_sides() -> float:
     return float(largest)
 
 
-def _force_run(made: Problem, q: np.ndarray) -> float:
+def _force_run(made: PlanningProblem, q: np.ndarray) -> float:
     """Largest relative difference of the printed forces in the joints to those of the field."""
     largest = 0.0
     for row in q[:_FORCES]:

@@ -14,7 +14,7 @@ import numpy as np
 from ...errors import DataFileError
 from ...ledger import REGISTRY
 from ...ledger.formula import Formula, parse
-from ...planning.descent.problem import Problem
+from ...planning.descent.problem import PlanningProblem
 from ...planning.field.control_points import end_effector
 from ...tracking import memo
 from .scenario import GAINS
@@ -74,7 +74,7 @@ def new_attraction(
     return _number(value("eq13", 1, given))
 
 
-def new_attractions(made: Problem, q: np.ndarray) -> np.ndarray:
+def new_attractions(made: PlanningProblem, q: np.ndarray) -> np.ndarray:
     """(13) of a problem at configurations (N, 6)."""
     flange = end_effector(made.placed, q)
     pairs = zip(flange, q, strict=True)

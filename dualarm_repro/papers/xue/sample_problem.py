@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from ...arms import load_arm
-from ...planning.descent.problem import Problem, problem
+from ...planning.descent.problem import PlanningProblem, problem
 from ...planning.field.obstacles import obstacles_of
 from ...planning.field.potentials import Potential
 from ...planning.settings import (
@@ -37,7 +37,7 @@ def sample_problem(
     virtual_centre: tuple[float, float, float] = tuple(_CENTRE),
     virtual_switching: str = "on_when_stuck",
     virtual_joints: bool = False,
-) -> Problem:
+) -> PlanningProblem:
     """Master from the printed start to the printed goal beside a window, with the printed gains.
 
     With ``virtual_joints`` the virtual point attracts the joints to the goal angles as well.
@@ -72,7 +72,7 @@ def sample_problem(
     return problem(placed, away, MASTER_GOAL, obstacles_of(scene), settings)
 
 
-def samples(made: Problem, count: int = 200) -> np.ndarray:
+def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
     """Configurations about the start with all control points outside the bars (N, 6)."""
     rng = np.random.default_rng(SEED)
     q = MASTER_START + rng.uniform(-0.5, 0.5, (count, 6))

@@ -13,7 +13,7 @@ from ..field.obstacles import Obstacles
 from ..plan import Plan
 from ..settings import APFSettings, code
 from .outcome import Record, finished
-from .problem import Problem, problem
+from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within
 from .updates import next_configuration
 from .virtual_point import initial, may_finish, switched
@@ -45,7 +45,7 @@ def plan_apf(
     return finished(made, descend(made))
 
 
-def descend(made: Problem) -> Record:
+def descend(made: PlanningProblem) -> Record:
     """The loop of :func:`plan_apf`."""
     began = perf_counter()
     end, trap, rules = made.settings.termination, made.settings.termination.trap, made.switch_rules
@@ -83,7 +83,7 @@ def descend(made: Problem) -> Record:
     )
 
 
-def _terms(made: Problem, q: np.ndarray, step: int, active: bool) -> tuple:
+def _terms(made: PlanningProblem, q: np.ndarray, step: int, active: bool) -> tuple:
     """Attractive, repulsive (K,) and virtual potential, clearance (K,), whether the point acts."""
     return (
         made.attraction.value(q),
@@ -94,7 +94,7 @@ def _terms(made: Problem, q: np.ndarray, step: int, active: bool) -> tuple:
     )
 
 
-def _to_virtual_point(made: Problem, q: np.ndarray) -> float:
+def _to_virtual_point(made: PlanningProblem, q: np.ndarray) -> float:
     point = made.settings.virtual_point
     if point is None:
         return np.inf

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...differences import central_differences
-from .problem import Problem
+from .problem import PlanningProblem
 
 # Displacement [rad] of the central differences; balances their two errors for smooth gradients.
 _DIFFERENCE = 1e-5
@@ -41,7 +41,7 @@ class Certificate:
     position_error: float
 
 
-def certify(made: Problem, q: np.ndarray, step: int) -> Certificate:
+def certify(made: PlanningProblem, q: np.ndarray, step: int) -> Certificate:
     """Gradient and curvature of U_att + U_rep at ``q``, with the obstacles of ``step``."""
     gradient = made.field.gradient(q, step)
     lower, upper = made.limits
@@ -55,7 +55,7 @@ def certify(made: Problem, q: np.ndarray, step: int) -> Certificate:
     )
 
 
-def hessian(made: Problem, q: np.ndarray, step: int) -> np.ndarray:
+def hessian(made: PlanningProblem, q: np.ndarray, step: int) -> np.ndarray:
     """d^2 (U_att + U_rep) / dq^2 by central differences of the gradient, symmetrised (nq, nq)."""
     matrix = central_differences(lambda at: made.field.gradient(at, step), q, _DIFFERENCE)
     return 0.5 * (matrix + matrix.T)

@@ -16,7 +16,7 @@ from ..field.obstacles import Obstacles
 from ..plan import Plan
 from ..settings import APFSettings, code
 from .outcome import Record, finished
-from .problem import Problem, problem
+from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within
 from .update_kernels import move
 from .virtual_point import acting, initial, may_finish, switched
@@ -78,7 +78,7 @@ def plan_apf_compiled(
     return finished(made, descend_compiled(made))
 
 
-def descend_compiled(made: Problem) -> Record:
+def descend_compiled(made: PlanningProblem) -> Record:
     """As :func:`.apf.descend`."""
     began = perf_counter()
     rows = empty_rows(made)
@@ -88,7 +88,7 @@ def descend_compiled(made: Problem) -> Record:
     return Record(*kept, reason, end.activations, end.arrivals, perf_counter() - began)
 
 
-def rules_of(made: Problem) -> Rules:
+def rules_of(made: PlanningProblem) -> Rules:
     """Numbers of a problem."""
     update, end = made.settings.update, made.settings.termination
     return Rules(
@@ -107,7 +107,7 @@ def rules_of(made: Problem) -> Rules:
     )
 
 
-def empty_rows(made: Problem) -> Rows:
+def empty_rows(made: PlanningProblem) -> Rows:
     """Arrays for one run; a later run may write over them."""
     count = made.settings.termination.step_limit + 1
     joints, points = len(made.start), len(made.points.joint)

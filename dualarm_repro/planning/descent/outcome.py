@@ -10,7 +10,7 @@ from ...arms import Arm
 from ..plan import Plan
 from ..settings import Switching
 from .certificate import certify
-from .problem import Problem
+from .problem import PlanningProblem
 from .termination import StopReason, within
 
 _IN_A_TRAP = (Switching.ON_WHEN_STUCK, Switching.REPLACES_GOAL)
@@ -32,7 +32,7 @@ class Record:
     wall_time: float
 
 
-def finished(made: Problem, record: Record) -> Plan:
+def finished(made: PlanningProblem, record: Record) -> Plan:
     """The plan of a record, with what is known about its end."""
     last, steps = record.path[-1], len(record.path) - 1
     parts = vars(record) | {"reason": refined(made, record.reason, last, steps)}
@@ -56,7 +56,7 @@ def leaves_limits(
     return tuple(name for name, q in looked_at.items() if not np.all(arm.within_limits(q, 1e-9)))
 
 
-def refined(made: Problem, reason: StopReason, q: np.ndarray, step: int) -> StopReason:
+def refined(made: PlanningProblem, reason: StopReason, q: np.ndarray, step: int) -> StopReason:
     """Whether a trapped arm rests close to a goal at which an obstacle repels it."""
     if reason is not StopReason.TRAPPED:
         return reason
@@ -65,7 +65,7 @@ def refined(made: Problem, reason: StopReason, q: np.ndarray, step: int) -> Stop
     return StopReason.NEAR_OBSTACLE if close and made.repels_at_goal(step) else reason
 
 
-def rescued(made: Problem, reason: StopReason, activations: int) -> bool:
+def rescued(made: PlanningProblem, reason: StopReason, activations: int) -> bool:
     """Whether the goal is reached after a virtual point was switched on in a trap."""
     point = made.settings.virtual_point
     tried = point is not None and point.switching in _IN_A_TRAP and activations > 0

@@ -22,7 +22,7 @@ _NO_REPULSION = (0.0, 1.0, 0.5, Combination.SUM)
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class PlanningProblem:
     """What a planner is given; build it with :func:`problem`."""
 
     placed: PlacedArm
@@ -113,7 +113,7 @@ def problem(
     goal: ArrayLike,
     obstacles: Obstacles,
     settings: APFSettings,
-) -> Problem:
+) -> PlanningProblem:
     """Check the parts of a problem and put them together.
 
     Raises
@@ -132,12 +132,12 @@ def problem(
         if settings.enforce_limits and not arm.within_limits(q):
             raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
     points = control_points(arm, settings.control_points, settings.weights)
-    made = Problem(placed, start, goal, obstacles, settings, points)
+    made = PlanningProblem(placed, start, goal, obstacles, settings, points)
     require_clear(made, start[np.newaxis])
     return made
 
 
-def require_clear(made: Problem, starts: np.ndarray) -> None:
+def require_clear(made: PlanningProblem, starts: np.ndarray) -> None:
     """Raise InputError where a control point touches an obstacle at the first step.
 
     Parameters

@@ -13,7 +13,7 @@ from ...arms.kernels import Chain
 from ...kernel import kernel
 from ...scene.posing import link_frames
 from ...scene.vectors import cross, dot, minus, out_of_frame, scaled, vector
-from ..descent.problem import Problem
+from ..descent.problem import PlanningProblem
 from ..settings import Combination
 from .control_points import base_of
 from .nearest_kernels import nearest_shapes, witness
@@ -75,7 +75,7 @@ class Workspace(NamedTuple):
     gradient: np.ndarray
 
 
-def field_of(made: Problem) -> Field:
+def field_of(made: PlanningProblem) -> Field:
     """Arrays of a problem."""
     obstacles, repulsion = made.obstacles, made.repulsion
     summed = repulsion.combination is Combination.SUM

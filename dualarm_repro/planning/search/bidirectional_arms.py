@@ -17,9 +17,10 @@ from pydantic import Field
 from ...arms import Arm
 from ...errors import InputError
 from ...scene import JointPath, PlacedArm, Scene
+from ..arm_path import ArmPath
 from ..descent.outcome import leaves_limits
 from ..descent.termination import StopReason
-from ..field.control_points import control_points, end_effector
+from ..field.control_points import control_points
 from ..field.hull_obstacle import JointCircles
 from ..field.obstacles import obstacles_of
 from ..master_slave import CoordinatedPlan, Task
@@ -59,17 +60,15 @@ class SearchEnd:
 
 
 @dataclass(frozen=True, eq=False)
-class SplicedPlan:
-    """A search and the path to execute (N, nq) [rad]: smoothed, or as far as the forward half came.
-
-    It is read like a :class:`.plan.Plan`.
-    """
+class SplicedPlan(ArmPath):
+    """A search and the path to execute (N, nq) [rad]: smoothed, or as far as the forward half
+    came."""
 
     search: SearchPlan
     path: np.ndarray
 
     @property
-    def placed(self) -> PlacedArm:
+    def placed(self) -> PlacedArm:  # type: ignore[override]
         """The arm."""
         return self.search.problem.placed
 
@@ -88,11 +87,6 @@ class SplicedPlan:
         """Why the search ended."""
         return self.search.reason
 
-    @property
-    def steps(self) -> int:
-        """Number of joint steps."""
-        return len(self.path) - 1
-
     @cached_property
     def certificate(self) -> SearchEnd | None:
         """How the search ended; None if the goal is reached."""
@@ -101,21 +95,6 @@ class SplicedPlan:
         failure = None if self.search.problem.settings.two_sided else classify(self.search)
         return SearchEnd(self.search.gap, self.search.control_clearance, failure)
 
-    @cached_property
-    def tcp(self) -> np.ndarray:
-        """Flange in the world (N, 3) [m]."""
-        return end_effector(self.placed, self.path)
-
-    @property
-    def length(self) -> float:
-        """Length of the path in joint space [rad]."""
-        return float(np.linalg.norm(np.diff(self.path, axis=0), axis=1).sum())
-
-    @property
-    def tcp_length(self) -> float:
-        """Length of the path of the flange [m]."""
-        return float(np.linalg.norm(np.diff(self.tcp, axis=0), axis=1).sum())
-
     @property
     def outside_limits(self) -> tuple[str, ...]:
         """Which of ``start``, ``goal`` and ``path`` leave the joint limits."""
@@ -123,8 +102,7 @@ class SplicedPlan:
 
     def to_frame(self) -> pd.DataFrame:
         """One row per step: joints q1 ... [rad], flange x, y, z [m]."""
-        columns = {f"q{j + 1}": angle for j, angle in enumerate(self.path.T)}
-        return pd.DataFrame(columns | dict(zip("xyz", self.tcp.T, strict=True))).rename_axis("step")
+        return pd.DataFrame(self.columns()).rename_axis("step")
 
 
 def spliced(search: SearchPlan, settings: TwoArmSettings) -> SplicedPlan:

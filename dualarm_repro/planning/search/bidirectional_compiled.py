@@ -32,7 +32,7 @@ _REACHED, _TRAPPED, _STEP_LIMIT = map(
 )
 
 
-class Field(NamedTuple):
+class SearchField(NamedTuple):
     """Constants of the search, see :class:`.control_points.ControlPoints`,
     :class:`.obstacles.Obstacles` (at their first step) and the settings."""
 
@@ -55,8 +55,8 @@ class Field(NamedTuple):
     contact: float
 
 
-class Rules(NamedTuple):
-    """Rules of gain, step and end, see the settings."""
+class SearchRules(NamedTuple):
+    """SearchRules of gain, step and end, see the settings."""
 
     gain_rule: int
     kappa: float
@@ -77,7 +77,7 @@ class Rules(NamedTuple):
     upper: np.ndarray
 
 
-class Rows(NamedTuple):
+class SearchRows(NamedTuple):
     """Where the loop writes: paths (2, L, nq), distances and gain factors (2, L, K)."""
 
     path: np.ndarray
@@ -115,7 +115,7 @@ def search_compiled(made: SearchProblem) -> SearchRecord:
     sides = 2 if made.settings.two_sided else 1
     count = made.settings.ending.search_limit + 1
     points, joints = len(made.points.joint), len(made.start)
-    rows = Rows(
+    rows = SearchRows(
         np.empty((2, count, joints)), np.empty((2, count, points)), np.empty((2, count, points))
     )
     memory = Memory(
@@ -135,10 +135,10 @@ def search_compiled(made: SearchProblem) -> SearchRecord:
     return SearchRecord(paths, clearances, factors, flips, end, perf_counter() - began)
 
 
-def search_field(made: SearchProblem) -> Field:
+def search_field(made: SearchProblem) -> SearchField:
     """Arrays and numbers of a problem."""
     obstacles, settings = made.obstacles, made.settings
-    return Field(
+    return SearchField(
         made.placed.arm.chain,
         base_of(made.placed),
         made.points.joint,
@@ -159,10 +159,10 @@ def search_field(made: SearchProblem) -> Field:
     )
 
 
-def search_rules(made: SearchProblem) -> Rules:
+def search_rules(made: SearchProblem) -> SearchRules:
     """Numbers of a problem's rules."""
     gain, step, ending = made.settings.variable_gain, made.settings.step, made.settings.ending
-    return Rules(
+    return SearchRules(
         code(gain.rule),
         gain.kappa,
         gain.band,

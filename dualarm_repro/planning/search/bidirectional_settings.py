@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from ..settings import Combination, Count, PointSet, Positive, Settings, Share
+from ..settings import Combination, Count, PlannerSettings, PointSet, Positive, Share
 
 Factor = Annotated[float, Field(gt=0, le=1)]
 
@@ -53,7 +53,7 @@ class UpdateOrder(StrEnum):
     AFTER = "after"
 
 
-class ConicAttraction(Settings):
+class ConicAttraction(PlannerSettings):
     """Settings of the attraction of the joints, see :mod:`.joint_attraction`."""
 
     gain: Positive = Field(description="zeta")
@@ -61,7 +61,7 @@ class ConicAttraction(Settings):
     measure: Threshold = Threshold.NORM
 
 
-class PointRepulsionSettings(Settings):
+class PointRepulsionSettings(PlannerSettings):
     """Settings of the repulsion of control points, see :mod:`.repulsive_force`."""
 
     gain: Positive = Field(description="eta_0")
@@ -70,7 +70,7 @@ class PointRepulsionSettings(Settings):
     contact: Positive = Field(default=1e-3, description="shorter distances count as this one [m]")
 
 
-class VariableGain(Settings):
+class VariableGain(PlannerSettings):
     """Settings of the factor lambda of the repulsive gain, see :mod:`.variable_gain`."""
 
     rule: GainRule = GainRule.CONSTANT
@@ -79,7 +79,7 @@ class VariableGain(Settings):
     flip: FlipRule = FlipRule.NEGATIVE
 
 
-class SearchStep(Settings):
+class SearchStep(PlannerSettings):
     """Settings of the step length, see :mod:`.adaptive_step`."""
 
     length: Positive = Field(description="alpha_0 [rad]")
@@ -97,7 +97,7 @@ class SearchStep(Settings):
         return self
 
 
-class Ending(Settings):
+class Ending(PlannerSettings):
     """Settings of the end of a search."""
 
     tolerance: Positive = Field(description="|q - q_goal| or gap of the halves [rad]")
@@ -106,7 +106,7 @@ class Ending(Settings):
     stuck_progress: Positive = Field(default=1e-3, description="what counts as progress [rad]")
 
 
-class BidirectionalSettings(Settings):
+class BidirectionalSettings(PlannerSettings):
     """Everything that defines a search; two-sided, variable gain and step are switched one by
     one.
     """

@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
+from ...scene import PlacedArm
+from ..arm_path import ArmPath
 from ..descent.termination import StopReason
 from ..field.control_points import end_effector
 from .search_problem import SearchProblem
@@ -27,7 +29,7 @@ class SearchRecord:
 
 
 @dataclass(frozen=True, eq=False)
-class SearchPlan:
+class SearchPlan(ArmPath):
     """A search and its path; row s of a half belongs to search s."""
 
     problem: SearchProblem
@@ -48,16 +50,16 @@ class SearchPlan:
         """Steps that each half has taken."""
         return len(self.record.paths[0]) - 1
 
+    @property
+    def placed(self) -> PlacedArm:  # type: ignore[override]
+        """The arm."""
+        return self.problem.placed
+
     @cached_property
-    def path(self) -> np.ndarray:
+    def path(self) -> np.ndarray:  # type: ignore[override]
         """Forward half, then the backward half turned round (N, nq) [rad]."""
         forward, *backward = self.record.paths
         return np.vstack([forward, *(half[::-1] for half in backward)])
-
-    @cached_property
-    def tcp(self) -> np.ndarray:
-        """Flange along :attr:`path` in the world (N, 3) [m]."""
-        return end_effector(self.problem.placed, self.path)
 
     @cached_property
     def half_tcp(self) -> tuple[np.ndarray, ...]:
@@ -75,11 +77,6 @@ class SearchPlan:
         forward, *backward = self.record.paths
         target = backward[0][-1] if backward else self.problem.goal
         return float(np.linalg.norm(forward[-1] - target))
-
-    @property
-    def length(self) -> float:
-        """Length of the path in joint space [rad]."""
-        return float(np.linalg.norm(np.diff(self.path, axis=0), axis=1).sum())
 
     @property
     def control_clearance(self) -> float:

@@ -31,7 +31,7 @@ from ...errors import DataFileError, InputError
 from ...scene import PlacedArm, Scene, load_scene
 from ...scene.scene_file import Name, Number, Point, Radians
 from ..master_slave import MasterPoints
-from ..settings import APFSettings, PointSet, Settings
+from ..settings import APFSettings, PlannerSettings, PointSet
 from .postures import Elbow, Tool, posture
 from .tip_goal import REACHED, tip_posture
 
@@ -109,7 +109,7 @@ class TaskFile(StrictModel):
 
 
 @dataclass(frozen=True, eq=False)
-class ArmTask:
+class ReadTask:
     """Start and goal of one arm (nq,) [rad], and by how much the goal misses its point [m]."""
 
     start: np.ndarray
@@ -122,14 +122,14 @@ class TaskSet:
     """A scene and the tasks in it; ``settings`` is None if the file has none."""
 
     scene: Scene
-    tasks: dict[str, ArmTask]
-    settings: Settings | None
+    tasks: dict[str, ReadTask]
+    settings: PlannerSettings | None
     leave_out: tuple[str, ...]
     master_points: MasterPoints
     radius: float | None
 
 
-def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet:
+def load_tasks(path: str | Path, kind: type[PlannerSettings] = APFSettings) -> TaskSet:
     """Read a task file, or a scene file whose arms have start and goal.
 
     Parameters
@@ -171,7 +171,7 @@ def json_schema() -> dict[str, Any]:
     return TaskFile.model_json_schema()
 
 
-def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
+def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ReadTask:
     placed = next((placed for placed in scene.arms if placed.name == name), None)
     if placed is None:
         raise DataFileError(path, "tasks", name, f"one of {', '.join(scene.columns)}")
@@ -189,10 +189,12 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ArmTask:
         except InputError as error:
             place = f"tasks.{name}.{field}: {error.field}"
             raise DataFileError(path, place, error.value, error.expected) from None
-    return ArmTask(**ends, residual=missed)
+    return ReadTask(**ends, residual=missed)
 
 
-def _settings(path: Path, kind: type[Settings], values: dict[str, Any] | None) -> Settings | None:
+def _settings(
+    path: Path, kind: type[PlannerSettings], values: dict[str, Any] | None
+) -> PlannerSettings | None:
     try:
         return None if values is None else kind(**values)
     except InputError as error:
