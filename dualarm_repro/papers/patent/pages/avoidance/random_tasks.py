@@ -11,7 +11,7 @@ from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, pseudo_inverse_cost
 from .....control.settings import FORMS
 from .....ledger import REGISTRY, Assumed, Generally, Result, Share
-from .....view.control_figures import shares_figure
+from .....view.shares import shares_figure
 from ...problems import recorded
 from ...studies.tasks import SETTINGS, TASKS
 
@@ -96,7 +96,7 @@ def completes(assumed: Assumed) -> Result:
     )
     large = float((table["slack_error"] > 1e-2).mean())
     shares = {
-        _WORDS[name]: tuple(Share.of(done[name]["count"], done[name]["of"])) for name in FORMS
+        _WORDS[name]: {"exact QP": Share.of(done[name]["count"], len(table))} for name in FORMS
     }
     counted = counted_tasks(assumed)
     return Result(
@@ -132,7 +132,7 @@ def completes(assumed: Assumed) -> Result:
         ),
         alt="Bars with the share of colliding tasks completed by each of five readings of the "
         "avoidance rows.",
-        figure=lambda: shares_figure(shares),
+        figure=lambda: shares_figure(shares, "share of the colliding tasks that are completed"),
     )
 
 
