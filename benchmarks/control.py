@@ -11,9 +11,10 @@ import pinocchio as pin
 from timing import OURS, Row, timed
 
 from dualarm_repro.control.controller import VelocityController
+from dualarm_repro.control.frozen import FrozenScenario
 from dualarm_repro.control.settings import Settings
 from dualarm_repro.control.simulate import simulate
-from dualarm_repro.papers.patent.scenario import Frozen, frozen
+from dualarm_repro.papers.patent.document import frozen
 
 TASK = "control step of two Pandas with avoidance"
 DT, LOOP = 1e-3, 200
@@ -62,7 +63,7 @@ def _daqp(controller: VelocityController) -> Callable:
     return step
 
 
-def _pink(scenario: Frozen, settings: Settings) -> Callable:
+def _pink(scenario: FrozenScenario, settings: Settings) -> Callable:
     """Both arms in one model with their capsules; the same task, limits and damper."""
     import pink
     from pink.barriers import SelfCollisionBarrier
@@ -112,7 +113,7 @@ def _pink(scenario: Frozen, settings: Settings) -> Callable:
     return step
 
 
-def _two_arm_model(scenario: Frozen) -> tuple[pin.Model, pin.GeometryModel, list[str]]:
+def _two_arm_model(scenario: FrozenScenario) -> tuple[pin.Model, pin.GeometryModel, list[str]]:
     """One model of both arms with all pairs of capsules of different arms."""
     model, geometry, tips, owners = pin.Model(), pin.GeometryModel(), [], []
     for placed in scenario.system.arms:

@@ -3,19 +3,29 @@
 import numpy as np
 import pytest
 
+from dualarm_repro import load_arm
+from dualarm_repro.control.frozen import FrozenScenario, arm_pair
 from dualarm_repro.control.problem import Problem
-from dualarm_repro.papers.patent.tasks import arm_pair
+from dualarm_repro.control.scenario import load_scenario
+from dualarm_repro.datafiles import data_path
 
 
 @pytest.fixture(scope="session")
 def system():
-    return arm_pair("xarm7", 0.6)
+    return arm_pair(load_arm("xarm7"), 0.6)
 
 
 @pytest.fixture(scope="session")
 def q(system):
     arrays = system.arrays
     return np.random.default_rng(5).uniform(0.4 * arrays.lower, 0.4 * arrays.upper)
+
+
+@pytest.fixture(scope="session")
+def crossing():
+    """Two xArm 7 whose arms cross without avoidance."""
+    file = load_scenario(data_path("scenes", "patent_crossing_xarm7.yaml"))
+    return FrozenScenario.of(file, load_arm("xarm7"))
 
 
 def random_problem(rng, equalities=6, rows=12, tight=0.5):

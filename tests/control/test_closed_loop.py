@@ -10,18 +10,13 @@ from dualarm_repro.control.settings import Settings
 from dualarm_repro.control.simulate import pseudo_inverse, simulate
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import ConfigurationError, InputError, UnknownNameError
-from dualarm_repro.papers.patent.scenario import frozen
+from dualarm_repro.papers.patent.document import frozen
 
 STILL = np.zeros((2, 3))
 
 
-@pytest.fixture(scope="module")
-def crossing():
-    return frozen("crossing_xarm7")
-
-
 def run(scenario, settings, **options):
-    return simulate(scenario.system, scenario.circles, scenario.q0, settings, **options)
+    return simulate(*scenario.parts, settings, **options)
 
 
 def test_avoidance_keeps_the_inner_range_where_naive_motion_collides(crossing):

@@ -9,14 +9,13 @@ from dualarm_repro.control.recorded import recorded_problems, stacked
 from dualarm_repro.control.settings import Settings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import solve
-from dualarm_repro.papers.patent.scenario import frozen
 
 
 @pytest.fixture(scope="module")
-def problems():
-    scenario, settings = frozen("crossing_xarm7"), Settings()
-    motion = simulate(scenario.system, scenario.circles, scenario.q0, settings, dt=5e-3)
-    made = recorded_problems(scenario.system, scenario.circles, motion, settings, 20)
+def problems(crossing):
+    settings = Settings()
+    motion = simulate(*crossing.parts, settings, dt=5e-3)
+    made = recorded_problems(crossing.system, crossing.circles, motion, settings, 20)
     for k, problem in enumerate(made[::10]):
         np.testing.assert_allclose(solve(problem).x, motion.x[200 * k], atol=1e-9)
     return made

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...control.neural.fixed_step import divergence_time as stability_end
-from ...control.neural.fixed_step import simulate_network
+from ...control.neural.fixed_step import divergence_time, simulate_network
 from ...control.neural.network_settings import NetworkSettings
+from ...control.neural.penalised import rest_point
 from ...control.settings import Settings
 from ...ledger import REGISTRY, Proof
-from .constants import CONTROL_STEP
-from .gain import GAINS
-from .penalised import rest_point, sample_problem
-from .scenario import frozen, run
+from .document import CONTROL_STEP, frozen, run
+from .pages.network.decay import GAINS
+from .problems import sample_problem
 
 
 @REGISTRY.proves("patent.state_in_right_side")
 def state_in_right_side() -> Proof:
     """The network with and without the Hessian of the penalty in front of the state derivative."""
     scenario = frozen("crossing")
-    arguments = (scenario.system, scenario.circles, scenario.q0, Settings())
-    with_hessian = simulate_network(*arguments, NetworkSettings())
-    without = simulate_network(*arguments, NetworkSettings(hessian=False))
+    with_hessian, without = (
+        simulate_network(*scenario.parts, Settings(), NetworkSettings(hessian=hessian))
+        for hessian in (True, False)
+    )
     return Proof(
         "with the Hessian in the matrix the network completes the frozen task; with E alone it "
         "diverges",
@@ -37,9 +37,7 @@ def state_in_right_side() -> Proof:
 def initial_state() -> Proof:
     """A zero state where the path starts at full speed, against the exact controller."""
     scenario = frozen("crossing", law="constant_speed")
-    network = simulate_network(
-        scenario.system, scenario.circles, scenario.q0, Settings(), NetworkSettings()
-    )
+    network = simulate_network(*scenario.parts, Settings(), NetworkSettings())
     exact = run(scenario, Settings())
     return Proof(
         "started from a zero state on a path that begins at full speed the network is off the "
@@ -70,12 +68,10 @@ def soft_inequalities() -> Proof:
 def unbounded_gain() -> Proof:
     """Times at which explicit steps of 1 ms diverge, against ln(2 / (gamma dt))."""
     scenario = frozen("crossing")
-    found, predicted = [], [stability_end(gamma, CONTROL_STEP) for gamma in GAINS]
+    found, predicted = [], [divergence_time(gamma, CONTROL_STEP) for gamma in GAINS]
     for gamma in GAINS:
         network = NetworkSettings(gamma=gamma, capped=False)
-        motion = simulate_network(
-            scenario.system, scenario.circles, scenario.q0, Settings(), network
-        )
+        motion = simulate_network(*scenario.parts, Settings(), network)
         found.append(float(motion.time[-1]) if not motion.completed else np.inf)
     late = np.subtract(found, predicted)
     return Proof(

@@ -14,17 +14,11 @@ from dualarm_repro.control.settings import Settings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import InputError, UnknownNameError
-from dualarm_repro.papers.patent.scenario import frozen
 
 from ..conftest import random_problem
 from .test_parts import readable_optimality
 
 NO_NOISE = np.empty(0)
-
-
-@pytest.fixture(scope="module")
-def crossing():
-    return frozen("crossing_xarm7")
 
 
 def test_one_step_with_unit_gain_is_one_newton_step():

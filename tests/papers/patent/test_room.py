@@ -4,20 +4,30 @@ import numpy as np
 import pytest
 
 import dualarm_repro.papers.patent  # noqa: F401  registers its items
+from dualarm_repro.control.frozen import arm_pair
 from dualarm_repro.control.neural.network_settings import NetworkSettings
+from dualarm_repro.control.neural.penalised import rest_point
+from dualarm_repro.control.random_tasks import draw_task
 from dualarm_repro.control.settings import Settings
 from dualarm_repro.control.simulate import pseudo_inverse
+from dualarm_repro.control.task_search import DEEP, KEPT, TRACKED, score
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
 from dualarm_repro.papers import load
-from dualarm_repro.papers.patent.constants import CONTROL_STEP
-from dualarm_repro.papers.patent.mesh_check import URDFS, mesh_excess
-from dualarm_repro.papers.patent.penalised import rest_point, sample_problem
-from dualarm_repro.papers.patent.random_tasks import TASKS
-from dualarm_repro.papers.patent.robots import redundant_arm
-from dualarm_repro.papers.patent.scenario import frozen, run, scenario_file
-from dualarm_repro.papers.patent.search import DEEP, KEPT, RADII, SEARCHES, TRACKED
-from dualarm_repro.papers.patent.symbols import matrix_equation
-from dualarm_repro.papers.patent.tasks import arm_pair, draw_task
+from dualarm_repro.papers.patent.document import (
+    CONTROL_STEP,
+    RADII,
+    SEARCHES,
+    SEED,
+    frozen,
+    redundant_arm,
+    run,
+    scenario_file,
+)
+from dualarm_repro.papers.patent.pages.network.symbols import matrix_equation
+from dualarm_repro.papers.patent.pages.problem.method import STEPS, name, trace, traced_steps
+from dualarm_repro.papers.patent.pages.problem.program import URDFS, uncovered
+from dualarm_repro.papers.patent.problems import sample_problem
+from dualarm_repro.papers.patent.studies.tasks import TASKS
 
 load()
 ITEMS = [item_id for item_id in REGISTRY.items if item_id.startswith("patent.")]
@@ -29,13 +39,13 @@ def test_every_item_has_a_checker():
 
 @pytest.mark.parametrize("robot", list(URDFS))
 def test_capsules_contain_the_meshes_of_the_moving_links(robot):
-    excess = mesh_excess(robot)
+    excess = uncovered(robot)
     assert len(excess) >= 7
     assert max(excess.values()) <= 1e-4
 
 
 def test_published_capsules_of_the_panda_miss_the_hand():
-    assert 0.005 < max(mesh_excess("panda", "published").values()) < 0.01
+    assert 0.005 < max(uncovered("panda", "published").values()) < 0.01
 
 
 def test_panda_has_twelve_capsules():
@@ -53,14 +63,17 @@ def test_frozen_crossings_meet_their_criteria_at_the_control_rate(name):
     assert motion.largest_error <= TRACKED
 
 
-@pytest.mark.parametrize("name", list(SEARCHES))
-def test_frozen_files_hold_the_recorded_draw(name):
-    robot, *_ = SEARCHES[name]
-    file = scenario_file(name)
-    task = draw_task(arm_pair(robot, 0.6), np.random.default_rng(file.found.seed), RADII)
+@pytest.mark.parametrize("scenario", list(SEARCHES))
+def test_frozen_files_hold_the_recorded_draw(scenario):
+    searched, file = SEARCHES[scenario], scenario_file(scenario)
+    system = arm_pair(redundant_arm(searched.robot), file.base_distance)
+    task = draw_task(system, np.random.default_rng(file.found.seed), RADII)
     np.testing.assert_allclose(task.q0, [*file.left.q, *file.right.q], atol=1e-6)
     np.testing.assert_allclose(task.normals, [file.left.normal, file.right.normal], atol=1e-6)
     assert file.radius == pytest.approx(task.radius, abs=1e-6)
+    assert file.found.seed[0] == SEED
+    assert f"among {searched.draws} draws; {searched.wanted.words}" in file.found.criteria
+    assert score(system, task, searched.wanted, Settings()) is not None
 
 
 def test_stored_study_is_current_and_large_enough():
@@ -105,3 +118,8 @@ def test_rest_points_depend_on_the_penalty():
 )
 def test_verdicts_follow_their_assumptions(item_id, changes, verdict):
     assert evaluate(REGISTRY, item_id, changes).verdict == verdict
+
+
+def test_a_run_returns_from_every_step():
+    assert {name(step) for step in STEPS} <= set(trace())
+    assert len(traced_steps()) == len(STEPS)

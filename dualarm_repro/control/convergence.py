@@ -1,0 +1,60 @@
+"""How near the networks come to the exact minimiser, step by step from a zero state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from .contest import newton_all
+from .neural.network import network_rate
+from .neural.network_settings import NetworkSettings
+from .neural.primal_dual import iterate
+from .problem import Problem
+from .recorded import stacked
+from .solvers import solve
+
+
+def first_within(errors: np.ndarray, threshold: float) -> int | None:
+    """Index of the first error within the threshold."""
+    below = np.flatnonzero(errors <= threshold)
+    return int(below[0]) if len(below) else None
+
+
+def network_errors(p: Problem, network: NetworkSettings, steps: int) -> np.ndarray:
+    """|x - x*|_inf before each of so many steps of unit gain (Newton steps) [rad/s]."""
+    size, exact = p.size + len(p.b), solve(p).x
+    y, rate, still, errors = np.zeros(size), np.empty(size), np.zeros(size), []
+    for _ in range(steps):
+        errors.append(float(np.abs(y[: p.size] - exact).max()))
+        network_rate(network.numbers(), 1.0, still, *p.parts, y, rate)
+        y += rate
+    return np.array(errors)
+
+
+def primal_dual_errors(p: Problem, counts: Iterable[int]) -> np.ndarray:
+    """|x - x*|_inf of the primal-dual network after these rising numbers of iterations [rad/s]."""
+    exact, u, done, errors = solve(p).x, np.zeros(p.size + len(p.b) + len(p.h)), 0, []
+    for count in counts:
+        iterate(*p.parts, u, int(count) - done, 0.0)
+        done = int(count)
+        errors.append(float(np.abs(u[: p.size] - exact).max()))
+    return np.array(errors)
+
+
+def steps_in_a_row(
+    problems: list[Problem], network: NetworkSettings, threshold: float, most: int
+) -> tuple[int, float]:
+    """Least Newton steps a problem with which the network follows problems in a row, and the error.
+
+    It starts every problem from its state before. Where none of 1 ... ``most`` steps brings the
+    largest error [rad/s] within the threshold, the number that comes nearest is given.
+    """
+    exact, x = np.array([solve(p).x for p in problems]), np.empty((len(problems), problems[0].size))
+    data, tried = stacked(problems), []
+    for steps in range(1, most + 1):
+        newton_all(data, network.numbers(), steps, x)
+        tried.append((steps, float(np.nan_to_num(np.abs(x - exact), nan=np.inf).max())))
+        if tried[-1][1] <= threshold:
+            return tried[-1]
+    return min(tried, key=lambda pair: pair[1])

@@ -1,0 +1,149 @@
+"""Figure 2: one task with and without mutual avoidance."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from .....control.frozen import FrozenScenario
+from .....control.motion import Motion
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....view.arm_drawings import skeleton
+from .....view.control_figures import comparison_figure
+from .....view.scene3d import Scene3D
+from .....view.style import MASTER, SLAVE
+from ...document import run
+from ...reading import AVOIDANCE, controller_settings, crossing
+
+checks = partial(REGISTRY.checks, page="patent/avoidance")
+
+
+@checks(
+    "patent.fig02",
+    samples=32,
+    rules=[
+        Bounded("naive_distance", "without avoidance the arms touch [m]", high=0.0),
+        Bounded(
+            "shortfall", "with it the distance falls short of d2 by at most [m]", high="resolution"
+        ),
+        Bounded(
+            "tip_steps",
+            "the tips leave their paths by at most what they move in a step, share",
+            high=1,
+        ),
+        Is("completed", "over the whole task", value=True),
+    ],
+)
+def comparison(assumed: Assumed) -> Result:
+    """Figure 2: one task with the avoidance rows off and on."""
+    scenario = crossing(assumed, "base_distance", "duration", "time_law", "capsules")
+    settings = controller_settings(assumed, *AVOIDANCE, "feedback_gain")
+    dt = assumed["time_step"]
+    naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
+    fastest = _path_speed(scenario)
+    table = pd.DataFrame(
+        [(name, *_measures(m)) for name, m in (("without", naive), ("with", motion))],
+        columns=["avoidance", "distance [m]", "tip error [m]", "peak speed [rad/s]",
+                 "peak acceleration [rad/s^2]", "energy [rad^2/s]", "drift [rad]"],
+    )  # fmt: skip
+    return Result(
+        obtained={
+            "naive_distance": naive.smallest_distance,
+            "distance": motion.smallest_distance,
+            "shortfall": settings.inner - motion.smallest_distance,
+            "tip_error": motion.largest_error,
+            "tip_steps": motion.largest_error / (fastest * dt),
+            "completed": motion.completed,
+            "energy_ratio": motion.energy / naive.energy,
+        },
+        table=table,
+        caption=(
+            f"{scenario.title}. The same circles in {scenario.period:g} s: without the avoidance "
+            f"rows their smallest distance is {1e3 * naive.smallest_distance:.0f} mm, with them "
+            f"they stay {1e3 * motion.smallest_distance:.1f} mm apart, and the tips leave their "
+            f"paths by no more than {1e6 * max(naive.largest_error, motion.largest_error):.0f} um, "
+            f"where they move up to {1e6 * fastest * dt:.0f} um in a step. Avoidance is paid in "
+            "joint motion: the integral of the squared speed changes by a factor of "
+            f"{motion.energy / naive.energy:.2f}, the largest acceleration from "
+            f"{naive.peak_acceleration:.1f} to {motion.peak_acceleration:.1f} rad/s^2."
+        ),
+        alt=(
+            "Two pictures of two arms, crossing each other without avoidance and apart with it; "
+            "below, their distance over time, which falls below zero without avoidance and stays "
+            "above the inner range with it."
+        ),
+        figure=lambda: _comparison_figure(scenario, settings, naive, motion),
+        scene=lambda: _scene(scenario, motion),
+    )
+
+
+def _path_speed(scenario: FrozenScenario) -> float:
+    """Largest speed of a tip along its path [m/s]."""
+    velocities = [scenario.circles.at(t)[1] for t in np.linspace(0.0, scenario.period, 201)]
+    return float(np.linalg.norm(velocities, axis=-1).max())
+
+
+def _measures(motion: Motion) -> tuple[float, ...]:
+    return (
+        motion.smallest_distance,
+        motion.largest_error,
+        motion.peak_speed,
+        motion.peak_acceleration,
+        motion.energy,
+        float(np.abs(motion.q[-1] - motion.q[0]).max()),
+    )
+
+
+def _skeletons(scenario: FrozenScenario, q: np.ndarray) -> list[np.ndarray]:
+    arms = scenario.system.arms
+    return [
+        skeleton(p.arm, part, p.placement) for p, part in zip(arms, np.split(q, 2), strict=True)
+    ]
+
+
+def _tip_paths(scenario: FrozenScenario) -> list[np.ndarray]:
+    times = np.linspace(0.0, scenario.period, 121)
+    points = np.array([scenario.circles.at(t)[0] for t in times])
+    return [points[:, 0], points[:, 1]]
+
+
+def _comparison_figure(
+    scenario: FrozenScenario, settings: Settings, naive: Motion, motion: Motion
+) -> Any:
+    worst = int(naive.distance.argmin())
+    at = min(worst, len(motion.q) - 1)
+    paths = _tip_paths(scenario)
+    return comparison_figure(
+        {
+            "without avoidance": (naive.time, naive.distance),
+            "with avoidance": (motion.time, motion.distance),
+        },
+        {
+            "without avoidance": [*_skeletons(scenario, naive.q[worst]), *paths],
+            "with avoidance": [*_skeletons(scenario, motion.q[at]), *paths],
+        },
+        (settings.inner, settings.outer),
+    )
+
+
+def _scene(scenario: FrozenScenario, motion: Motion) -> Scene3D:
+    made = Scene3D(f"{scenario.title}: the motion with avoidance.", camera=(1.9, 0.4, 1.3))
+    every = max(1, round(0.1 / motion.dt))
+    path = motion.q[::every]
+    halves = np.split(path, 2, axis=1)
+    for placed, part, color, points in zip(
+        scenario.system.arms, halves, (MASTER, SLAVE), _tip_paths(scenario), strict=True
+    ):
+        made.add_arm(placed.name, placed.arm, part[0], placed.placement, color)
+        made.add_path(f"{placed.name} path", points, color)
+    made.animate(
+        {p.name: (p.arm, part) for p, part in zip(scenario.system.arms, halves, strict=True)},
+        fps=10,
+        every=1,
+    )
+    return made

@@ -1,0 +1,236 @@
+"""Promises on frozen tasks: joint limits, the two ranges, and against the pseudo-inverse."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+
+from .....control.controller import VelocityController
+from .....control.frozen import FrozenScenario
+from .....control.joint_ranges import angle_excess, speed_excess
+from .....control.motion import Motion
+from .....control.neural.fixed_step import simulate_network
+from .....control.neural.network_settings import NetworkSettings
+from .....control.operations import control_cost, network_control_cost
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
+from .....tracking import memo
+from .....view.control_figures import damper_figure
+from ...document import COARSE_STEP, CONTROL_STEP, frozen, run
+from ...reading import LIMITS, controller_settings
+from .random_tasks import counted_tasks
+
+checks = partial(REGISTRY.checks, page="patent/avoidance")
+
+
+@checks(
+    "patent.claim_limits",
+    samples=32,
+    rules=[
+        Bounded("naive_excess", "the pseudo-inverse exceeds an angle limit by [rad]", low=0.0),
+        Bounded("angle_excess", "the QP, at most by [rad]", high=0.0),
+        Bounded("network_excess", "the network, at most by [rad]", high=0.0),
+        Bounded(
+            "naive_speed_excess",
+            "on a fast task the pseudo-inverse exceeds a speed limit by [rad/s]",
+            low=0.0,
+        ),
+        Bounded("speed_excess", "the QP, at most by [rad/s]", high=1e-9),
+        Bounded("network_speed_excess", "the network, at most by [rad/s]", high=0.0),
+    ],
+)
+def respects_limits(assumed: Assumed) -> Result:
+    """Angle limits on a task that drives joints to them, speed limits on the same task run fast."""
+    settings = controller_settings(assumed, *LIMITS)
+    slow, fast = frozen("limits"), frozen("limits", duration=assumed["fast_duration"])
+    angles = [angle_excess(slow.system, m.q) for m in _three(slow, settings, COARSE_STEP)]
+    motions = _three(fast, settings, CONTROL_STEP)
+    speeds = [speed_excess(fast.system, m.x) for m in motions]
+    return Result(
+        obtained={
+            **dict(zip(("naive_excess", "angle_excess", "network_excess"), angles, strict=True)),
+            "naive_speed_excess": speeds[0],
+            "speed_excess": speeds[1],
+            "network_speed_excess": speeds[2],
+            "fast_slack": float(motions[1].slack.max()),
+        },
+        caption=(
+            f"Angle, one turn in {slow.period:g} s, excess over the limits (negative inside): "
+            f"pseudo-inverse {angles[0]:+.3f}, QP {angles[1]:+.4f}, network {angles[2]:+.4f} rad. "
+            f"Speed, the same turn in {fast.period:g} s: {speeds[0]:+.3f}, {speeds[1]:+.4f} and "
+            f"{speeds[2]:+.4f} rad/s. The QP gives up the path where it has to, by up to "
+            f"{motions[1].slack.max():.2f} m/s here; the network keeps to the path, and its "
+            "bounds are soft."
+        ),
+    )
+
+
+@checks(
+    "patent.claim_two_ranges",
+    samples=32,
+    rules=[
+        Residual(
+            "outside",
+            "beyond d1 the joint velocity is that without avoidance, to [rad/s]",
+            high=1e-9,
+        ),
+        Bounded("inside", "within d1 it differs from that, at most by [rad/s]", low="adjusted"),
+        Bounded("shortfall", "the distance falls short of d2 by at most [m]", high="resolution"),
+        Bounded(
+            "end_shortfall",
+            "after a start below d2 the distance falls short of d2 in the end by [m]",
+            high="resolution",
+        ),
+    ],
+)
+def two_ranges(assumed: Assumed) -> Result:
+    """Distance, rows, approach and bound along the frozen task; a start inside the inner range."""
+    names = ("outer_range", "inner_range", "damper_law", "damper_gain", "pair_selection")
+    settings, scenario = controller_settings(assumed, *names), frozen("crossing")
+    motion = run(scenario, settings, COARSE_STEP)
+    controller = VelocityController(scenario.system, settings)
+    approach, bound = _nearest_pair(scenario, controller, motion)
+    inside = motion.distance[:-1] < settings.outer
+    changed = _changed(scenario, settings, motion)
+    start = run(frozen("too_close"), settings, COARSE_STEP, slack=True)
+    return Result(
+        obtained={
+            "outside": float(changed[~inside].max(initial=0.0)),
+            "inside": float(changed[inside].max(initial=0.0)),
+            "shortfall": settings.inner - motion.smallest_distance,
+            "end_shortfall": float(settings.inner - start.distance[-1]),
+            "start_distance": float(start.distance[0]),
+            "inside_share": float(inside.mean()),
+        },
+        caption=(
+            f"The nearest pair is inside d1 for {inside.mean():.0%} of the time. Outside, the "
+            "joint velocity differs from that without avoidance by at most "
+            f"{changed[~inside].max(initial=0.0):.1e} rad/s, inside by up to "
+            f"{changed[inside].max(initial=0.0):.2f} rad/s, and the distance ends up at "
+            f"{1e3 * motion.smallest_distance:.1f} mm. A second scenario starts "
+            f"{1e3 * start.distance[0]:.1f} mm apart and ends {1e3 * start.distance[-1]:.0f} mm "
+            "apart."
+        ),
+        alt="Distance between two ranges, approach speed below its falling bound, and number of "
+        "rows over time.",
+        figure=lambda: damper_figure(
+            motion.time[:-1],
+            motion.distance[:-1],
+            motion.rows,
+            approach,
+            bound,
+            (settings.inner, settings.outer),
+        ),
+    )
+
+
+@checks(
+    "patent.claim_vs_pinv",
+    samples=16,
+    rules=[
+        Bounded("naive_distance", "pseudo-inverse: smallest distance [m]", high=0.0),
+        Bounded("distance", "QP: smallest distance [m]", low=0.0),
+        Bounded("naive_excess", "pseudo-inverse: excess over an angle limit [rad]", low=0.0),
+        Bounded("excess", "QP: excess over an angle limit [rad]", high=0.0),
+        Bounded("period_share", "operations of a step, share of the period", high=1),
+    ],
+)
+def against_pseudo_inverse(assumed: Assumed) -> Result:
+    """Violations of both on the same tasks, and the operations of one step in its period."""
+    settings = controller_settings(assumed, "avoidance_form", "limit_form")
+    dt, near, far = assumed["time_step"], frozen("crossing"), frozen("limits")
+    naive = [run(s, pseudo_inverse(settings), dt) for s in (near, far)]
+    exact = [run(s, settings, dt) for s in (near, far)]
+    counted = counted_tasks(assumed)
+    leave = float((counted["naive_beyond_angle"] > 0).mean())
+    steps = _step_operations(settings)
+    period = max(steps.values()) / assumed["operation_rate"] / dt
+    return Result(
+        obtained={
+            "naive_distance": naive[0].smallest_distance,
+            "distance": exact[0].smallest_distance,
+            "naive_excess": angle_excess(far.system, naive[1].q),
+            "excess": angle_excess(far.system, exact[1].q),
+            "period_share": period,
+            **{f"{name}_operations": count for name, count in steps.items()},
+            "random_tasks_beyond_limits": leave,
+            "random_tasks_colliding": float(counted["collides"].mean()),
+        },
+        measured={
+            f"{name}_step_us": 1e6 * _step_seconds(near, s)
+            for name, s in (("pinv", pseudo_inverse(settings)), ("qp", settings))
+        },
+        caption=(
+            "The QP takes constraints into account that the pseudo-inverse cannot express: of "
+            f"{len(counted)} random tasks the pseudo-inverse leaves a joint range in {leave:.0%} "
+            f"and collides in {counted['collides'].mean():.1%}. A whole step takes "
+            f"{steps['qp']:.0f} operations with the QP and {steps['network']:.0f} with the "
+            f"network, kinematics and distances included: {period:.1%} of a period of "
+            f"{1e3 * dt:g} ms at {assumed['operation_rate']:.0e} operations a second."
+        ),
+    )
+
+
+def _three(
+    scenario: FrozenScenario, settings: Settings, dt: float
+) -> tuple[Motion, Motion, Motion]:
+    """Motions by the pseudo-inverse, by the QP with slack, and by the network."""
+    return (
+        run(scenario, pseudo_inverse(settings), dt),
+        run(scenario, settings, dt, slack=True),
+        simulate_network(*scenario.parts, settings, NetworkSettings(), dt=dt),
+    )
+
+
+def _changed(scenario: FrozenScenario, settings: Settings, motion: Motion) -> np.ndarray:
+    """How far each joint velocity is from the one without avoidance at the same place [rad/s]."""
+    controller = VelocityController(scenario.system, replace(settings, avoid=False))
+    return np.array(
+        [
+            np.abs(controller.velocity(q, *scenario.circles.at(t)) - x).max()
+            for q, t, x in zip(motion.q[:-1], motion.time[:-1], motion.x, strict=True)
+        ]
+    )
+
+
+@memo(64)
+def _step_operations(settings: Settings) -> dict[str, float]:
+    """Operations of one whole step of each solver where most rows are active."""
+    scenario = frozen("crossing")
+    motion = run(scenario, settings, COARSE_STEP)
+    k = int(motion.rows.argmax())
+    q, t = motion.q[k], float(motion.time[k])
+    y = np.concatenate([motion.x[k], np.zeros(3 * len(scenario.system.arms))])
+    return {
+        "qp": control_cost(*scenario.parts, settings, q, t).total(),
+        "network": network_control_cost(
+            *scenario.parts, settings, NetworkSettings(), CONTROL_STEP, q, t, y
+        ).total(),
+    }
+
+
+def _nearest_pair(
+    scenario: FrozenScenario, controller: VelocityController, motion: Motion
+) -> tuple[np.ndarray, np.ndarray]:
+    """Approach of the row with the least room, and its bound, at every step; NaN without."""
+    approach, bound = np.full((2, len(motion.x)), np.nan)
+    for k, (q, x) in enumerate(zip(motion.q[:-1], motion.x, strict=True)):
+        if motion.rows[k]:
+            p = controller.problem(q, *scenario.circles.at(motion.time[k]))
+            row = int(np.argmax(p.G @ x - p.h))
+            approach[k], bound[k] = p.G[row] @ x, p.h[row]
+    return approach, bound
+
+
+def _step_seconds(scenario: FrozenScenario, settings: Settings) -> float:
+    """Time of one step within the compiled loop [s], the best of three runs."""
+    times = []
+    for _ in range(3):
+        start = perf_counter()
+        motion = run(scenario, settings, COARSE_STEP)
+        times.append((perf_counter() - start) / len(motion.x))
+    return min(times)

@@ -1,0 +1,293 @@
+"""How the error of the network decays: design and gain, state equation, integration."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+from scipy.integrate import solve_ivp
+
+from .....control.assembly import make_buffers, sense, state
+from .....control.neural.activation import ACTIVATIONS, SLOPE_AT_ZERO, activation
+from .....control.neural.continuous import INTEGRATORS, integrate_network
+from .....control.neural.fixed_step import divergence_time, simulate_network
+from .....control.neural.network import network_rate, state_rate
+from .....control.neural.network_settings import NetworkSettings
+from .....control.neural.optimality import optimality
+from .....control.neural.penalised import code_error, state_with_error
+from .....control.settings import ROWS, Settings
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....view.control_figures import decay_figure
+from ...document import CONTROL_STEP, SEED, frozen
+from ...problems import sample_problem
+from ...reading import network_settings
+
+checks = partial(REGISTRY.checks, page="patent/network")
+START = 0.1  # size of the error at the start of a decay
+GAINS = (1.0, 10.0, 80.0)
+HORIZON = 6.0  # [s] after which gamma = 1 has reached most of its ceiling
+_KINDS = ("growing", "start", "ceiling")
+_DONE = 1e-9  # error below every declared threshold, after which nothing is left to see
+
+
+@checks(
+    "patent.eq_design",
+    rules=[
+        Bounded("defect", "error of the network against the design, share of the start", high=1e-4),
+        NoOriginal("formula", "the decay of the error"),
+    ],
+)
+def error_decay(assumed: Assumed) -> Result:
+    """Error of the network on a problem that stands still, against d xi/dt = -gamma e^t Psi(xi)."""
+    gain = REGISTRY.declared("patent.gain", "value", "range")
+    names = REGISTRY.declared("patent.activation", "choices").choices
+    tried = [(name, gain.value) for name in names]
+    tried += [(names[0], gamma) for gamma in gain.range]
+    defects = [
+        _decay_defect(NetworkSettings(activation=name, gamma=gamma)) for name, gamma in tried
+    ]
+    return Result(
+        obtained={"defect": round(max(defects), 6), "tried": len(tried)},
+        table=pd.DataFrame(
+            [(*pair, defect) for pair, defect in zip(tried, defects, strict=True)],
+            columns=["activation", "gamma [1/s]", "defect"],
+        ),
+        caption=(
+            "On a problem that stands still every entry of the error follows d xi/dt = -gamma e^t "
+            f"Psi(xi) to {max(defects):.1e} of its start, for {len(names)} activations and "
+            f"gamma = {gain.range[0]:g} to {gain.range[1]:g}: the state equation does what the "
+            "design asks for. For the linear activation the decay is exp(-gamma (e^t - 1))."
+        ),
+    )
+
+
+def _decay_defect(network: NetworkSettings) -> float:
+    """Largest difference between the error of the network and the design, share of the start."""
+    p, numbers = sample_problem(), network.numbers()
+    size = p.size + len(p.b)
+    still = np.zeros(size)
+    y0 = state_with_error(p, network, np.random.default_rng(SEED).uniform(-START, START, size))
+    start, kind = code_error(p, network, y0), ACTIVATIONS.index(network.activation)
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        dy = np.empty(size)
+        network_rate(
+            numbers, network.gamma * np.exp(t), still, *p.parts, np.ascontiguousarray(y), dy
+        )
+        return dy
+
+    def design(t: float, xi: np.ndarray) -> np.ndarray:
+        return -network.gamma * np.exp(t) * np.array([activation(kind, v) for v in xi])
+
+    end = float(np.log1p(3.0 / network.gamma))
+    options = {"method": "Radau", "rtol": 1e-9, "atol": 1e-11}
+    grid = np.linspace(0.0, end, 41)
+    flow = solve_ivp(rate, (0.0, end), y0, t_eval=grid, **options).y.T
+    expected = solve_ivp(design, (0.0, end), start, t_eval=grid, **options).y.T
+    reached = np.array([code_error(p, network, y) for y in flow])
+    return float(np.abs(reached - expected).max() / np.abs(start).max())
+
+
+@checks(
+    "patent.claim_gain_time_varying",
+    samples=32,
+    rules=[
+        Bounded(
+            "sooner",
+            "the growing gain is below the threshold earlier by [s], at least one step",
+            low="one_step",
+        ),
+    ],
+)
+def growing_gain(assumed: Assumed) -> Result:
+    """Time until the error stays below the threshold, with growing and with constant gain."""
+    threshold, own = assumed["convergence_threshold"], assumed["gain"]
+    activation, rival = assumed["activation"], assumed["compared_gain"]
+    curves = {
+        (g, kind): _decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
+    }
+    found = {key: _settled(errors, threshold) for key, errors in curves.items()}
+    ceiling = gain_ceiling(activation)
+    words = {"start": f"gamma = {own:g} 1/s throughout", "ceiling": f"{ceiling:g} 1/s throughout"}
+    sooner = found[own, rival] - found[own, "growing"]
+    drawn = {
+        f"{label}, gamma = {g:g}": (CONTROL_STEP * np.arange(len(curves[g, kind])), curves[g, kind])
+        for g in GAINS
+        for label, kind in (("growing gain", "growing"), ("constant gain", "start"))
+    }
+    drawn["constant gain of the same ceiling"] = (
+        CONTROL_STEP * np.arange(len(curves[own, "ceiling"])),
+        curves[own, "ceiling"],
+    )
+    return Result(
+        obtained={
+            "sooner": sooner,
+            "growing_s": found[own, "growing"],
+            "constant_s": found[own, "start"],
+            "ceiling_s": found[own, "ceiling"],
+            "ceiling": ceiling,
+        },
+        table=pd.DataFrame(
+            [(g, *(found[g, kind] for kind in _KINDS)) for g in sorted({*GAINS, own})],
+            columns=["gamma [1/s]", "growing [s]", "constant gamma [s]", "constant ceiling [s]"],
+        ),
+        caption=(
+            f"From an error of {START:g} the network of fixed step is below {threshold:g} for good "
+            f"after {_text(found[own, 'growing'])} with the growing gain (gamma = {own:g}, "
+            f"{activation}), after {_text(found[own, 'start'])} with gamma constant, and after "
+            f"{_text(found[own, 'ceiling'])} with the constant gain of the same ceiling, "
+            f"{ceiling:g} 1/s, beyond which the step allows no growth. Compared with "
+            f"{words[rival]}, the growing gain is "
+            f"{'sooner' if sooner >= CONTROL_STEP else 'not sooner'}. Which constant gain is meant "
+            "is not printed. Without that ceiling explicit steps become unstable after "
+            f"{', '.join(f'{divergence_time(g, CONTROL_STEP):.1f}' for g in GAINS)} s for gamma = "
+            f"{', '.join(f'{g:g}' for g in GAINS)}."
+        ),
+        alt="Decay of the error over time for three gains, growing and constant, and for the "
+        "constant gain of the same ceiling, which falls first.",
+        figure=lambda: decay_figure(drawn, threshold),
+    )
+
+
+def gain_ceiling(activation: str) -> float:
+    """Largest gain that the fixed step allows, 1 / (step Psi'(0)) [1/s]."""
+    slope = SLOPE_AT_ZERO[activation]
+    return 1.0 / (CONTROL_STEP * (slope if 0.0 < slope < np.inf else 1.0))
+
+
+def _decay(activation: str, gamma: float, kind: str) -> np.ndarray:
+    """|F|_inf before every explicit step on the problem that stands still."""
+    network, p = NetworkSettings(activation=activation), sample_problem()
+    numbers, ceiling = network.numbers(), gain_ceiling(activation)
+    size = p.size + len(p.b)
+    still, rate = np.zeros(size), np.empty(size)
+    y = state_with_error(p, network, np.random.default_rng(SEED).uniform(-START, START, size))
+    errors = []
+    for step in range(round(HORIZON / CONTROL_STEP)):
+        errors.append(float(np.abs(code_error(p, network, y)).max()))
+        grown = gamma * np.exp(step * CONTROL_STEP) if kind == "growing" else gamma
+        gain = ceiling if kind == "ceiling" else min(grown, ceiling)
+        network_rate(numbers, gain, still, *p.parts, y, rate)
+        y = y + CONTROL_STEP * rate
+        if not errors[-1] < 1e6 or errors[-1] < _DONE:
+            break
+    return np.array(errors)
+
+
+def _settled(errors: np.ndarray, threshold: float) -> float:
+    """When the error is below the threshold for good; the horizon if it is not [s]."""
+    above = np.flatnonzero(~(errors <= threshold))
+    steps = int(above[-1]) + 1 if len(above) else 0
+    return HORIZON if steps >= len(errors) else CONTROL_STEP * steps
+
+
+def _text(seconds: float) -> str:
+    return f"{seconds:.3f} s" if seconds < HORIZON else f"more than {HORIZON:g} s"
+
+
+@checks(
+    "patent.eq_solver",
+    samples=16,
+    rules=[
+        Bounded(
+            "defect", "along the motion, d xi/dt + gamma e^t Psi(xi), share of the gain", high=1e-4
+        ),
+        NoOriginal("formula", "the state equation"),
+    ],
+)
+def state_equation(assumed: Assumed) -> Result:
+    """Derivative of the error along the moving arms, by differences, against the design."""
+    network = network_settings(
+        assumed, "state_matrix", "feed_forward", "gain", "activation", "penalty_form"
+    )
+    scenario, settings = frozen("crossing"), Settings()
+    smooth = NetworkSettings(penalty=network.penalty)
+    motion, _ = integrate_network(*scenario.parts, settings, smooth, sample=0.02)
+    system, numbers, numbered = scenario.system, settings.numbers(), network.numbers()
+    arrays, circle = system.arrays, scenario.circles.numbers()
+    n, size = system.nq, system.nq + 3 * len(system.arms)
+    buffers = make_buffers(arrays, ROWS[numbers.form])
+    no_noise, still = np.empty(0), np.zeros(size)
+    rng = np.random.default_rng(SEED)
+    k = int(motion.distance[:-1].argmin())
+    q, t, worst = np.ascontiguousarray(motion.q[k]), float(motion.time[k]), 0.0
+
+    def error(s: float, y: np.ndarray, move: np.ndarray) -> np.ndarray:
+        """xi a time s later."""
+        count = sense(arrays, numbers, q + s * move, no_noise, buffers)
+        later = scenario.circles.at(t + s)
+        rows = state(arrays, numbers, q + s * move, scenario.q0, *later, count, buffers)
+        B, F = buffers, np.empty(size)
+        optimality(numbered, B.target, B.A, B.b, B.G[:rows], B.h[:rows], B.lower, B.upper, y, F)
+        return F
+
+    for _ in range(10):
+        y = np.concatenate([motion.x[k], np.zeros(size - n)]) + 0.02 * rng.normal(size=size)
+        rate = np.empty(size)
+        state_rate(
+            arrays, numbers, numbered, circle, q, scenario.q0, t, y, no_noise, still, buffers, rate
+        )
+        step = 1e-7 / max(1.0, float(np.abs(rate).max()) / 10)
+        ends = [error(sign * step, y + sign * step * rate, y[:n]) for sign in (1.0, -1.0)]
+        gain = network.gamma * np.exp(t)
+        asked = -gain * np.array([activation(numbered.activation, v) for v in error(0.0, y, y[:n])])
+        found = (ends[0] - ends[1]) / (2 * step)
+        worst = max(worst, float(np.abs(found - asked).max() / np.abs(asked).max()))
+    return Result(
+        obtained={"defect": round(worst, 6)},
+        caption=(
+            f"Moved along the arms' motion at t = {t:.2f} s, the error changes as -gamma e^t "
+            f"Psi(xi) to {worst:.1e} of the largest entry at ten random states: M dy/dt = -dF/dt "
+            "- gamma e^t Psi(F) with the Hessian of the penalty in M and every rate of the "
+            "problem in dF/dt. Leaving out either changes the decay."
+        ),
+    )
+
+
+@checks(
+    "patent.eq_integration",
+    samples=8,
+    rules=[
+        Bounded(
+            "defect_share",
+            "theta* less the sum of the first n entries of y*, by the error of such a sum",
+            high="quadrature",
+        ),
+        Bounded("tip_error", "largest tip error [m]", high="on_path"),
+    ],
+)
+def integration(assumed: Assumed) -> Result:
+    """Joint angles from the network state over the frozen task."""
+    scenario, settings = frozen("crossing"), Settings()
+    arguments = (*scenario.parts, settings, NetworkSettings())
+    if assumed["integrator"] in INTEGRATORS:
+        motion, evaluations = integrate_network(*arguments, integrator=assumed["integrator"])
+        # Trapezoids over samples a step h apart err by h^2 / 12 times the change of the slope.
+        summed = 0.5 * (motion.x[1:] + motion.x[:-1]) * motion.dt
+        changes = np.abs(np.diff(motion.x, n=2, axis=0)).sum(axis=0)
+        expected = motion.dt / 12.0 * float(changes.max())
+    else:
+        motion = simulate_network(*arguments, dt=CONTROL_STEP)
+        evaluations = len(motion.x)
+        summed = motion.x * motion.dt
+        expected = 1e-9
+    reached = motion.q[0] + np.vstack([np.zeros(motion.q.shape[1]), np.cumsum(summed, axis=0)])
+    defect = float(np.abs(reached - motion.q[: len(reached)]).max())
+    tips = round(motion.largest_error, 6)
+    return Result(
+        obtained={
+            "defect_share": round(defect / expected, 3),
+            "tip_error": tips,
+            "distance": motion.smallest_distance,
+        },
+        measured={"evaluations": evaluations, "tip_error": motion.largest_error},
+        caption=(
+            "Robot and network as one differential equation, integrated by "
+            f"{assumed['integrator']} with {evaluations} evaluations for {scenario.period:g} s of "
+            f"motion: the first n entries of y, summed up, are the joint angles to {defect:.1e} "
+            f"rad, where such a sum errs by up to {expected:.1e}. To the micrometre the tips are "
+            f"within {1e6 * tips:.0f} um of their circles, and the arms "
+            f"{1e3 * motion.smallest_distance:.1f} mm apart."
+        ),
+    )

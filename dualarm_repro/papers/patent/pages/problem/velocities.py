@@ -1,0 +1,161 @@
+"""Equations of the motion: forward map, velocities, the objective."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from .....control.controller import VelocityController
+from .....control.frozen import FrozenScenario
+from .....control.joint_ranges import random_configuration
+from .....control.redundancy import inertia_weighted, self_motion
+from .....control.settings import Settings
+from .....control.simulate import pseudo_inverse
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.formula import Formula, parse
+from ...document import COARSE_STEP, CROSSING, SEED, frozen, run
+
+checks = partial(REGISTRY.checks, page="patent/problem")
+STILL = np.zeros((2, 3))
+
+
+@checks(
+    "patent.eq_forward",
+    rules=[
+        Residual("apart", "both printed sides agree, to [m]", high=1e-12),
+        Bounded("other_solution", "another solution for the same r is this far [rad]", low="other"),
+        Residual("same_tips", "and has the same r, to [m]", high=1e-6),
+    ],
+)
+def forward_map(assumed: Assumed) -> Result:
+    """f of Pinocchio and r of the controller in the printed equation; a second theta."""
+    printed = parse(REGISTRY.printed("patent.eq_forward")["formula"])
+    rows = [_forward(printed, scenario) for scenario in _scenarios()]
+    other = min(row[1] for row in rows)
+    system = _scenarios()[0].system
+    return Result(
+        obtained={
+            "apart": max(row[0] for row in rows),
+            "other_solution": other,
+            "same_tips": max(row[2] for row in rows),
+            "unknowns": system.nq,
+            "equations": 3 * len(system.arms),
+        },
+        caption=(
+            f"The printed {printed.text} holds for {len(rows)} makes of arm: the map from "
+            f"{system.nq} joint angles to {3 * len(system.arms)} tip coordinates agrees with "
+            f"Pinocchio. It has no inverse: at least {other:.2f} rad away lies another posture "
+            "with the same tips, reached by a motion of the joints alone. That is why the text "
+            "turns to velocities, although it words f as the inverse map."
+        ),
+    )
+
+
+@checks(
+    "patent.eq_velocity",
+    rules=[
+        Residual("difference", "J theta' is the derivative of f, to [m/rad]", high=1e-6),
+        Bounded("coupling", "entries that couple one arm to the other's tip", high=0.0),
+        NoOriginal("formula", "the equation of velocities"),
+    ],
+)
+def velocity_map(assumed: Assumed) -> Result:
+    """J of both arms against central differences of f at random configurations."""
+    rng = np.random.default_rng(SEED)
+    worst, coupling = 0.0, 0.0
+    for scenario in _scenarios():
+        system = scenario.system
+        controller = VelocityController(system)
+        for _ in range(20):
+            q = random_configuration(system, rng)
+            J = controller.problem(q, system.tips(q), STILL).A
+            columns = central_differences(lambda at, s=system: s.tips(at).ravel(), q)
+            worst = max(worst, float(np.abs(columns.T - J).max()))
+            n = system.arrays.start[1]
+            blocks = (J[:3, n:], J[3:, :n])
+            coupling = max(coupling, *(float(np.abs(block).max()) for block in blocks))
+    return Result(
+        obtained={"difference": worst, "coupling": coupling},
+        caption=(
+            "The words between the lost formulas say what is differentiated: f by time. The block "
+            f"matrix of both Jacobians equals central differences of f to {worst:.1e} m/rad on 20 "
+            f"random configurations of {len(_scenarios())} makes of arm."
+        ),
+    )
+
+
+@checks(
+    "patent.eq_min_energy",
+    rules=[
+        Bounded("excess", "no joint velocity with the same tip velocity is smaller", high=1e-9),
+        Residual("to_pseudo_inverse", "distance to J^+ dr/dt [rad/s]", high=1e-9),
+        NoOriginal("formula", "the objective"),
+    ],
+)
+def least_velocity(assumed: Assumed) -> Result:
+    """Minimiser of the weighted norm under the task alone, and its drift over five turns."""
+    scenario = frozen("crossing")
+    system = scenario.system
+    worst, excess = 0.0, 0.0
+    rng = np.random.default_rng(SEED)
+    controller = VelocityController(system, pseudo_inverse(Settings()))
+    for _ in range(20):
+        q, velocity = random_configuration(system, rng), rng.normal(size=(2, 3))
+        p = controller.problem(q, system.tips(q), velocity)
+        least = np.linalg.pinv(p.A) @ p.b
+        x = least if assumed["energy_weight"] == "identity" else inertia_weighted(system, q, p)
+        worst = max(worst, float(np.abs(x - least).max()))
+        excess = max(excess, float(np.linalg.norm(x) - np.linalg.norm(least)))
+        if assumed["energy_weight"] == "identity":
+            found = controller.velocity(q, system.tips(q), velocity)
+            worst = max(worst, float(np.abs(found - x).max()))
+    drifts = {weight: _drift(scenario, weight) for weight in (0.0, 2.0)}
+    return Result(
+        obtained={
+            "excess": excess,
+            "to_pseudo_inverse": worst,
+            "drift_free": drifts[0.0],
+            "drift_repetitive": drifts[2.0],
+        },
+        table=pd.DataFrame(
+            [(turn + 1, *(drifts[w][turn] for w in drifts)) for turn in range(5)],
+            columns=["turn", "drift [rad]", "drift with repetitive term [rad]"],
+        ),
+        caption=(
+            "Least energy in the words of the text is the least norm of the joint velocity, which "
+            "under the task alone is the pseudo-inverse solution. The price: after one closed "
+            f"turn with avoidance a joint is {drifts[0.0][0]:.2f} rad from its start, after five "
+            f"{drifts[0.0][-1]:.2f} rad. With the pull lambda (q - q0), lambda = 2 1/s, it is at "
+            f"most {max(drifts[2.0]):.1e} rad."
+        ),
+    )
+
+
+def _scenarios() -> list[FrozenScenario]:
+    """The frozen crossing of every declared robot."""
+    robots = REGISTRY.declared("patent.robot", "choices").choices
+    return [frozen(CROSSING[robot]) for robot in robots]
+
+
+def _forward(printed: Formula, scenario: FrozenScenario) -> tuple[float, float, float]:
+    """Difference of both sides, distance of a second solution and the difference of its tips."""
+    system, q = scenario.system, scenario.q0
+    halves = np.split(q, 2)
+    model = [placed.arm.fk(part)[:3, 3] for placed, part in zip(system.arms, halves, strict=True)]
+    f = np.array([p.placement.act(tip) for p, tip in zip(system.arms, model, strict=True)])
+    controller = VelocityController(system, pseudo_inverse(Settings()))
+    tips = system.tips(q)
+    controller.velocity(q, tips, STILL)
+    given = {"f": f, "r": controller.tips}
+    apart = float(np.abs(printed.value(0, given) - printed.value(1, given)).max())
+    other = self_motion(system, q)
+    same = float(np.abs(system.tips(other) - tips).max())
+    return apart, float(np.linalg.norm(other - q)), same
+
+
+def _drift(scenario: FrozenScenario, weight: float) -> list[float]:
+    motion = run(scenario, Settings(repetition=weight), COARSE_STEP, cycles=5)
+    return motion.drift(scenario.period).tolist()

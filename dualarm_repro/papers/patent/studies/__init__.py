@@ -1,0 +1,5 @@
+"""Stored studies of `patent`."""
+
+from . import tasks
+
+__all__ = ["tasks"]
