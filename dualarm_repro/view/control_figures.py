@@ -159,16 +159,3 @@ def convergence_figure(
         ax.set(xlabel="steps", ylabel="residual")
         ax.legend()
     return figure
-
-
-def shares_figure(shares: Mapping[str, tuple[float, float, float]]) -> Any:
-    """Horizontal bars of shares with confidence intervals (share, low, high)."""
-    with house_style():
-        figure, ax = plt.subplots(figsize=(7.2, 0.5 * len(shares) + 1.2))
-        names = list(shares)[::-1]
-        values = np.array([shares[name] for name in names])
-        spread = np.abs(values[:, 1:].T - values[:, 0])
-        ax.barh(names, 100 * values[:, 0], color=BLUE, xerr=100 * spread, capsize=3)
-        ax.set(xlabel="share of the colliding tasks that are completed [%]", xlim=(0, 100))
-        ax.grid(axis="y", visible=False)
-    return figure
