@@ -141,8 +141,8 @@ def gains_against_points() -> Proof:
     flange = inverse_distance_force(surface[0], eta0, PRINTED.influence, 1e-3)
     return Proof(
         "with the textbook form of (7)-(9) and the printed gains, no posture that has its flange "
-        "at the printed trap is in balance: repulsion exceeds the largest possible attraction in "
-        "all of them",
+        "at the printed trap is in balance: repulsion exceeds the largest possible "
+        "attraction in all of them",
         min(ratios) > 10.0,
         {
             "postures": len(ratios),
@@ -177,8 +177,8 @@ def goal_inside_range() -> Proof:
     failure = classify(plan)
     return Proof(
         "both spheres reach the goal with their repulsion, and the one-way search with the "
-        "printed gains fails because its goal is no equilibrium: begun at the goal, it rests at "
-        "the same place",
+        "printed gains fails because its goal is no equilibrium: begun at the goal, "
+        "it rests at the same place",
         max(gaps) < PRINTED.influence and failure is Failure.DISPLACED_GOAL,
         {"goal_to_surfaces": gaps, "failure": str(failure), "searches": plan.searches},
     )

@@ -63,10 +63,7 @@ def _dual_plan(reading: Slave) -> DualPlan:
 def dual_readings(assumed: Assumed) -> dict[str, DualPlan]:
     """Both arms at face value and in the reconstruction."""
     reading = Slave.of(assumed)
-    return {
-        FACE_VALUE: reading.dual_plan(),
-        RECONSTRUCTION: reading.reconstructed().dual_plan(),
-    }
+    return {FACE_VALUE: reading.dual_plan(), RECONSTRUCTION: reading.reconstructed().dual_plan()}
 
 
 def both_arms(
@@ -88,10 +85,7 @@ def both_arms(
 
 
 def executed(
-    plan: DualPlan,
-    how: str = "time map",
-    shift: int = 0,
-    radii: tuple[float, ...] | None = None,
+    plan: DualPlan, how: str = "time map", shift: int = 0, radii: tuple[float, ...] | None = None
 ) -> ContactCheck:
     """Contact of whole links while both arms move."""
     master, slave = both_arms(plan, how, shift)

@@ -67,8 +67,8 @@ def _chatter(plan: SearchPlan, measure: str) -> float:
             "flange where it rests [m]",
             to="tcp",
             tolerance=0.033,
-            reason="printed as a neighbourhood: the way of the flange of the straight arm in one "
-            "printed step",
+            reason="printed as a neighbourhood: the way of the flange of the "
+            "straight arm in one printed step",
         ),
     ],
 )
@@ -91,8 +91,8 @@ def trapped(assumed: Assumed) -> Result:
             "obstacles push the arm off a goal inside their range. It never comes nearer than "
             f"{1e3 * face['distance_to_printed_trap']:.0f} mm to the printed trap. With the gain "
             f"ratio {balance_ratio():.1e}, at which repulsion at the printed trap is as large as "
-            f"the attraction, the search ends as: {other['reason']}, after {other['searches']} "
-            "searches."
+            f"the attraction, the search ends as: {other['reason']}, after "
+            f"{other['searches']} searches."
         ),
     )
 
@@ -134,7 +134,7 @@ def oscillates(assumed: Assumed) -> Result:
             "random tasks whose chatter the variable gain clearly reduces, of those that chatter",
             at_least="most",
             margin="margin",
-        ),
+        )
     ],
 )
 def lambda_effect(assumed: Assumed) -> Result:
@@ -289,8 +289,8 @@ def coordinates(assumed: Assumed) -> Result:
             f"({face.record.flips[0]} flips of the resultant) and over {other.searches} in the "
             "reconstruction; dashed: the printed trap. The printed curves are lost."
         ),
-        alt="Coordinates of the flange over the searches for two readings, with the printed trap "
-        "as dashed levels.",
+        alt="Coordinates of the flange over the searches for two readings, with the "
+        "printed trap as dashed levels.",
         figure=lambda: coordinate_figure(
             {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp}, {"printed trap": PRINTED.trap}
         ),

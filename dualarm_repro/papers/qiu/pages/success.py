@@ -83,11 +83,11 @@ def table_2(assumed: Assumed) -> Result:
         obtained=obtained,
         table=shown,
         caption=(
-            f"{table.goals.min()} goals with each of {table.goal_seed.nunique()} seeds. With the "
-            "printed gains "
+            f"{table.goals.min()} goals with each of {table.goal_seed.nunique()} "
+            "seeds. With the printed gains "
             + "; ".join(
-                f"the {method} search arrives at {row['planner']} by the planner, {row['truth']} "
-                "in truth"
+                f"the {method} search arrives at {row['planner']} by the "
+                f"planner, {row['truth']} in truth"
                 for method, row in face.items()
             )
             + f". Judged by the {JUDGED_BY[rule]}, the improved search does better in "
@@ -223,7 +223,7 @@ def _until_rest(plan: SearchPlan) -> np.ndarray:
             "midway minima of the one-way search that the search from both ends solves",
             at_least="noticeable",
             margin="margin",
-        ),
+        )
     ],
 )
 def local_minima(assumed: Assumed) -> Result:

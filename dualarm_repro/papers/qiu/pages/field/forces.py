@@ -98,20 +98,18 @@ def control_points(assumed: Assumed) -> Result:
             f"Control points as origins of joints {', '.join(chosen.joints)}: "
             + "; ".join(f"({point(row, 3)}) m" for row in points)
             + ". Under a modified table the last two of the printed three would be one point, and "
-            "the printed order of three weights would have nothing to tell apart. The drawing is "
-            "lost."
+            "the printed order of three weights would have nothing to tell "
+            "apart. The drawing is lost."
         ),
-        alt="Stick figure of the arm at zero joints with three marked points: elbow, wrist and "
-        "flange.",
+        alt="Stick figure of the arm at zero joints with three marked points: "
+        "elbow, wrist and flange.",
         figure=lambda: tip_path_figure([panel], []),
     )
 
 
 @checks(
     "qiu.eq04",
-    rules=[
-        Residual("difference", "resultant against finite differences, relative", high=1e-5),
-    ],
+    rules=[Residual("difference", "resultant against finite differences, relative", high=1e-5)],
 )
 def resultant(assumed: Assumed) -> Result:
     """The printed sides on postures along the way, slopes by central differences."""
@@ -174,8 +172,8 @@ def attractive_potential(assumed: Assumed) -> Result:
         caption=(
             "The reconstructed attraction is half a square inside the threshold and grows linearly "
             f"outside; at the threshold the slope jumps by {max(*jumps, 0.0):.0e} of its value, "
-            "whether the threshold applies to the norm of the error or to each joint. The printed "
-            "formula is lost."
+            "whether the threshold applies to the norm of the error or to each joint. The "
+            "printed formula is lost."
         ),
     )
 
@@ -206,8 +204,8 @@ def attractive_force(assumed: Assumed) -> Result:
         caption=(
             f"The attraction is the negative slope of (5) to {worst:.0e} and never exceeds "
             f"{bounds['norm']:g} where the threshold applies to the norm of the error and "
-            f"{bounds['per_joint']:.0f} where it applies to each joint. The printed formula is "
-            "lost."
+            f"{bounds['per_joint']:.0f} where it applies to each joint. The "
+            "printed formula is lost."
         ),
     )
 
@@ -270,8 +268,8 @@ def repulsive_force(assumed: Assumed) -> Result:
         caption=(
             "The printed direction from the nearest obstacle point to the control point is the "
             f"slope of the distance in the code to {direction:.0e}; with the factor of the "
-            f"textbook the force is the negative slope of (7) to {worst:.0e}. The factor is not in "
-            "the text edition."
+            f"textbook the force is the negative slope of (7) to {worst:.0e}. The factor is "
+            "not in the text edition."
         ),
     )
 

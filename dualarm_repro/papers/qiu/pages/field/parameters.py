@@ -7,17 +7,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from .....ledger import (
-    REGISTRY,
-    Adopts,
-    Assumed,
-    Bounded,
-    Is,
-    NoOriginal,
-    Residual,
-    Result,
-    Role,
-)
+from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
 from .....ledger.formula import parse
 from .....ledger.printed import EXACT
 from .....planning.checks.recorded_steps import step_difference
@@ -132,8 +122,8 @@ def adaptive_step(assumed: Assumed) -> Result:
         Adopts("alpha0", "first step", to="alpha0"),
         Bounded(
             "steps_missing",
-            "steps of the straight joint line beyond those that the printed searches of both ends "
-            "make",
+            "steps of the straight joint line beyond those that the printed "
+            "searches of both ends make",
             high=0.0,
         ),
     ],
@@ -212,9 +202,7 @@ def repulsion_range(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.claim_kappa_range",
-    rules=[
-        Bounded("beyond", "kappa beyond the printed interval", high=0.0, role=Role.ADOPTS),
-    ],
+    rules=[Bounded("beyond", "kappa beyond the printed interval", high=0.0, role=Role.ADOPTS)],
 )
 def kappa_range(assumed: Assumed) -> Result:
     """The constant of the variable gain lies in the printed interval."""
@@ -251,7 +239,7 @@ def weight_order(assumed: Assumed) -> Result:
     return Result(
         obtained={"least_difference": least, "weights": list(tau)},
         caption=(
-            f"Weights {', '.join(map(str, tau))}: {'in' if least > 0.0 else 'not in'} the printed "
-            f"order {text}."
+            f"Weights {', '.join(map(str, tau))}: {'in' if least > 0.0 else 'not in'} "
+            f"the printed order {text}."
         ),
     )

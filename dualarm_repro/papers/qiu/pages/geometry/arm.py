@@ -84,11 +84,11 @@ def link_frames(assumed: Assumed) -> Result:
         },
         caption=(
             f"Link frames of the standard table at zero joints; the flange is at ({point(tip, 3)}) "
-            "m. A modified table of the same lengths puts the flange at the same place. The sketch "
-            "is lost."
+            "m. A modified table of the same lengths puts the flange at the same "
+            "place. The sketch is lost."
         ),
-        alt="Seven coordinate frames on the skeleton of the arm at zero joints, from base to "
-        "flange.",
+        alt="Seven coordinate frames on the skeleton of the arm at zero "
+        "joints, from base to flange.",
         figure=lambda: frames_figure(frames, 0.09),
     )
 
@@ -127,8 +127,8 @@ def table_1(assumed: Assumed) -> Result:
         table=pd.DataFrame(rows),
         caption=(
             "The standard table of the public arm agrees on 500 random configurations with a "
-            f"second model that knows only offsets and axes, to {difference:.1e} m. The printed "
-            "rows are lost."
+            f"second model that knows only offsets and axes, to {difference:.1e} m. "
+            "The printed rows are lost."
         ),
     )
 
@@ -151,10 +151,7 @@ def link_transform(assumed: Assumed) -> Result:
     for transform in transforms:
         product = (product * transform).applyfunc(sp.expand)
     return Result(
-        obtained={
-            "product_is_arm": product == arm.symbolic_fk(),
-            "rotations_orthonormal": rigid,
-        },
+        obtained={"product_is_arm": product == arm.symbolic_fk(), "rotations_orthonormal": rigid},
         caption=(
             f"Each of the {len(transforms)} link transforms Rz(theta) Tz(d) Tx(a) Rx(alpha) is a "
             "rigid motion in symbols and their product is the arm's. The printed formula is lost."

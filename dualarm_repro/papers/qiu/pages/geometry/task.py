@@ -62,7 +62,7 @@ _WAYS = {
             "miss",
             "base that the printed formula gives misses the printed slave base by [m]",
             high=1e-12,
-        ),
+        )
     ],
 )
 def base_translation(assumed: Assumed) -> Result:
@@ -122,8 +122,8 @@ def both_arms(assumed: Assumed) -> Result:
             "mirror each other in the yz plane, yet the arms do not: one is the other moved "
             f"{abs(assumed['base_translation']):g} m along x."
         ),
-        alt="Stick figures of two equal arms side by side, both reaching along y at the same "
-        "height.",
+        alt="Stick figures of two equal arms side by side, both reaching "
+        "along y at the same height.",
         figure=lambda: stick_figure({n: (a.arm, zero, a.placement) for n, a in arms.items()}),
         scene=scene,
     )
@@ -188,7 +188,7 @@ def obstacles(assumed: Assumed) -> Result:
             "printed tip against the tip at the printed joints, beyond the printed digits [m]",
             low=0.0,
             role=Role.CONTRADICTS,
-        ),
+        )
     ],
 )
 def start(assumed: Assumed) -> Result:
@@ -304,7 +304,7 @@ def _changes() -> pd.DataFrame:
             "printed start against the tip at the printed joints, beyond the printed digits [m]",
             low=0.0,
             role=Role.CONTRADICTS,
-        ),
+        )
     ],
 )
 def slave_task(assumed: Assumed) -> Result:
@@ -366,10 +366,10 @@ def goals_15(assumed: Assumed) -> Result:
         },
         table=table,
         caption=(
-            f"{len(drawn.q)} goals in a box of half width {assumed['goal_set']:g} m; rejected "
-            "draws: "
+            f"{len(drawn.q)} goals in a box of half width "
+            f"{assumed['goal_set']:g} m; rejected draws: "
             + ", ".join(f"{count} {reason}" for reason, count in drawn.rejected.items())
-            + f". The farthest is {1e3 * farthest:.0f} mm from the printed goal, the nearer sphere "
-            f"{1e3 * nearer:.0f} mm."
+            + f". The farthest is {1e3 * farthest:.0f} mm from the printed goal, the nearer "
+            f"sphere {1e3 * nearer:.0f} mm."
         ),
     )

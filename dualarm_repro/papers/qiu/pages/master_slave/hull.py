@@ -86,8 +86,8 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
             f"{1e3 * hull.volume:.1f} litres. It contains the circles, while a link of the arm "
             f"sticks out by up to {1e3 * sticking.max():.0f} mm. No radius is printed."
         ),
-        alt="Stick figure of the arm with six circles at its joints inside a translucent convex "
-        "hull, from two sides.",
+        alt="Stick figure of the arm with six circles at its joints inside a translucent "
+        "convex hull, from two sides.",
         figure=lambda: hull_figure(arm, q, hull, rings),
         scene=scene,
     )

@@ -50,8 +50,8 @@ def slave_joints(assumed: Assumed) -> Result:
             f"face value and {len(other.slave_path)} in the reconstruction; junctions dotted. The "
             "printed curves are lost."
         ),
-        alt="Six panels of joint angles of the slave over the samples of its path, for two "
-        "readings.",
+        alt="Six panels of joint angles of the slave over the samples of "
+        "its path, for two readings.",
         figure=lambda: joint_figure(
             {name: plan.slave_path for name, plan in plans.items()},
             [plan.slave.searches + 0.5 for plan in plans.values()],
@@ -175,8 +175,8 @@ def _scene(plan: DualPlan) -> Scene3D:
     master, slave = both_arms(plan)
     arms = {placed.name: placed for placed in dual_scene(plan.reading.master_goal).arms}
     made = with_spheres(
-        "Both arms on their paths (reconstruction); translucent: hull of the master at its middle "
-        "pose.",
+        "Both arms on their paths (reconstruction); translucent: hull of the "
+        "master at its middle pose.",
         camera=(0.6, 2.0, 1.4),
     )
     for (name, placed), path, color in zip(

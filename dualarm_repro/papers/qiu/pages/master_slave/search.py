@@ -69,8 +69,8 @@ def order_of_work(assumed: Assumed) -> Result:
             "map. The master's path depends on nothing of the slave; the slave's path changes with "
             "the master's. The chart of the document is lost."
         ),
-        alt="Flow chart in three columns: plan the master, build its moving hull, plan the slave "
-        "and execute both arms.",
+        alt="Flow chart in three columns: plan the master, build its moving hull, plan the "
+        "slave and execute both arms.",
         figure=lambda: flow_chart(rows),
     )
 
@@ -92,6 +92,7 @@ def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
 def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
     face, other = _outcomes(assumed)
+    printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
     return Result(
         obtained={
             "forward": face["searches"],
@@ -103,8 +104,7 @@ def counts(assumed: Assumed) -> Result:
         caption=(
             f"The slave's halves need {face['searches']} searches each at face value "
             f"({face['reason']}) and {other['searches']} in the reconstruction "
-            f"({other['reason']}); {REGISTRY.printed('qiu.claim_slave_counts')['forward']} are "
-            "printed."
+            f"({other['reason']}); {printed} are printed."
         ),
     )
 
@@ -171,8 +171,8 @@ def schedule(assumed: Assumed) -> Result:
             f"The master's poses are spread over {min(spread, searches)} searches from both ends "
             f"and its middle pose is held for the remaining {held} of {searches}"
             + (f", in which the step is {ratio:.2f} of the one before. " if held else ". ")
-            + f"The map from the slave's {len(share)} samples to the master's path is an output of "
-            "the plan."
+            + f"The map from the slave's {len(share)} samples to the master's path "
+            "is an output of the plan."
         ),
     )
 
@@ -206,7 +206,7 @@ def no_collision(assumed: Assumed) -> Result:
             f"while the links of the arms come to {1e3 * found.clearance['arms']:.0f} mm of each "
             f"other and to {1e3 * found.clearance['obstacles']:.0f} mm of the spheres (below zero "
             f"they overlap). Played up to {_SHIFTS[-1]} samples out of step the arms keep "
-            f"{1e3 * min(shifted.values()):.0f} mm at worst, at uniform speed {1e3 * uniform:.0f} "
-            "mm."
+            f"{1e3 * min(shifted.values()):.0f} mm at worst, at uniform "
+            f"speed {1e3 * uniform:.0f} mm."
         ),
     )

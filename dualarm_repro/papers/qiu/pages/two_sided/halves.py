@@ -66,8 +66,8 @@ def counts(assumed: Assumed) -> Result:
         caption=(
             f"The halves need {face['searches']} searches each with the printed gains and "
             f"{other['searches']} in the reconstruction; "
-            f"{REGISTRY.printed('qiu.claim_bi_counts')['forward']} are printed. At face value the "
-            "joined "
+            f"{REGISTRY.printed('qiu.claim_bi_counts')['forward']} are printed. "
+            "At face value the joined "
             "path " + ("is free of contact." if face["free"] else _worst(face))
         ),
     )
@@ -144,8 +144,8 @@ def both_halves(assumed: Assumed) -> Result:
         caption=(
             f"The halves end ({face.reason}) after {face.searches} searches at face value, at z = "
             f"{face.ends[0][2]:.3f} m, and after {other.searches} in the reconstruction, at z = "
-            f"{other.ends[0][2]:.3f} m; the printed ends of the halves are at z = {ends[0, 2]:.3f} "
-            f"and {ends[1, 2]:.3f} m."
+            f"{other.ends[0][2]:.3f} m; the printed ends of the halves are at z = "
+            f"{ends[0, 2]:.3f} and {ends[1, 2]:.3f} m."
         ),
         alt="Two panels with two spheres, postures of the arm and the two halves of its flange "
         "path that meet, and the printed end points of the halves.",

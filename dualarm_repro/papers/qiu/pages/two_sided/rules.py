@@ -194,7 +194,7 @@ def smoothing_sense(assumed: Assumed) -> Result:
             "random tasks in which the adaptive step needs fewer searches than the constant one",
             at_least="most",
             margin="margin",
-        ),
+        )
     ],
 )
 def adaptive_efficiency(assumed: Assumed) -> Result:
