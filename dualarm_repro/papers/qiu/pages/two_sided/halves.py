@@ -66,9 +66,8 @@ def counts(assumed: Assumed) -> Result:
         caption=(
             f"The halves need {face['searches']} searches each with the printed gains and "
             f"{other['searches']} in the reconstruction; "
-            f"{REGISTRY.printed('qiu.claim_bi_counts')['forward']} are printed. "
-            "At face value the joined "
-            "path " + ("is free of contact." if face["free"] else _worst(face))
+            f"{REGISTRY.printed('qiu.claim_bi_counts')['forward']} are printed. At face value the "
+            "joined path " + ("is free of contact." if face["free"] else _worst(face))
         ),
     )
 
