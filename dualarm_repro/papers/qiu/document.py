@@ -29,11 +29,6 @@ MOVED_BASE = 0.30  # x of the master base of the reading `moved_base` [m]
 MARGIN = 0.03  # clearance of the ends of random tasks [m]
 #: Names of the two readings that are drawn beside each other.
 FACE_VALUE, RECONSTRUCTION = "face value", "reconstruction"
-#: How near a printed point counts as met.
-NEAR = {
-    "tolerance": 0.016,
-    "reason": "half the way of the flange of the straight arm in one printed step",
-}
 
 
 def printed(item: str, *keys: str) -> np.ndarray:

@@ -318,18 +318,6 @@ class SlaveGoal(Reading):
         return self.slave_postures()[self.slave_branch]
 
 
-def ends_beside(plan: SearchPlan, printed: np.ndarray) -> dict[str, Any]:
-    """How a search from both ends came out, and where its halves end beside print (2, 3) [m]."""
-    pairs = zip(plan.ends, printed, strict=True)
-    return {
-        "reason": str(plan.reason),
-        "searches": plan.searches,
-        "ends": [end.tolist() for end in plan.ends],
-        "gap_tip": float(np.linalg.norm(plan.ends[0] - plan.ends[1])),
-        "distance_to_print": [float(np.linalg.norm(end - point)) for end, point in pairs],
-    }
-
-
 @memo()
 def balance_ratio() -> float:
     """eta_0/zeta at which repulsion of the flange at the printed trap is as large as the largest

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
 from .....view.diagrams import flow_chart
 from ....wording import point
-from ...document import NEAR, PRINTED
-from ...reading import Links, ends_beside
+from ...document import PRINTED
+from ...ends import count_rules, counted, meeting_rules, met, outcome
+from ...reading import Links
 from ...two_arms import Slave, both_arms, dual_readings, executed
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
@@ -78,29 +79,16 @@ def order_of_work(assumed: Assumed) -> Result:
 def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
     """How the slave's search came out, at face value and in the reconstruction."""
     plans = dual_readings(assumed).values()
-    return [ends_beside(plan.slave, PRINTED.slave_meeting) for plan in plans]
+    return [outcome(plan.slave, PRINTED.slave_meeting) for plan in plans]
 
 
-@checks(
-    "qiu.claim_slave_counts",
-    rules=[
-        Rounds("forward", "searches of the forward half", to="forward"),
-        Rounds("backward", "searches of the backward half", to="backward"),
-        Is("joined", "the slave's halves meet", value=True),
-    ],
-)
+@checks("qiu.claim_slave_counts", rules=count_rules("the slave's halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
     face, other = _outcomes(assumed)
     printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
     return Result(
-        obtained={
-            "forward": face["searches"],
-            "backward": face["searches"],
-            "joined": face["reason"] == "reached",
-            "face_value": face,
-            "reconstruction": other,
-        },
+        obtained=counted(face, other),
         caption=(
             f"The slave's halves need {face['searches']} searches each at face value "
             f"({face['reason']}) and {other['searches']} in the reconstruction "
@@ -109,33 +97,18 @@ def counts(assumed: Assumed) -> Result:
     )
 
 
-@checks(
-    "qiu.claim_slave_meet",
-    rules=[
-        Rounds(key="forward", to="forward", label="end of the forward half [m]", **NEAR),
-        Rounds(key="backward", to="backward", label="end of the backward half [m]", **NEAR),
-        Is("joined", "the slave's halves meet", value=True),
-    ],
-)
+@checks("qiu.claim_slave_meet", rules=meeting_rules("the slave's halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the slave's halves end, against print."""
     face, other = _outcomes(assumed)
-    printed_gap = float(np.linalg.norm(np.subtract(*PRINTED.slave_meeting)))
+    made = met(face, other, PRINTED.slave_meeting)
     return Result(
-        obtained={
-            "forward": face["ends"][0],
-            "backward": face["ends"][1],
-            "joined": face["reason"] == "reached",
-            "gap_tip": face["gap_tip"],
-            "printed_gap_tip": printed_gap,
-            "distance_to_print": face["distance_to_print"],
-            "reconstruction": other,
-        },
+        obtained=made,
         caption=(
             f"The slave's halves end at ({point(np.array(face['ends'][0]), 3)}) m, "
             f"{1e3 * max(face['distance_to_print']):.0f} mm from print, and in the reconstruction "
             f"{1e3 * max(other['distance_to_print']):.0f} mm from print. Gap of the tips "
-            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * printed_gap:.1f} mm."
+            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * made['printed_gap_tip']:.1f} mm."
         ),
     )
 

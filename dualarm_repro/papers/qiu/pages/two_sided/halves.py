@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Rounds
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....planning.checks.contact_check import ContactCheck, contact_check
 from .....planning.field.control_points import end_effector
 from .....planning.search.search_plan import SearchPlan
@@ -18,9 +18,10 @@ from .....view.search_curves import coordinate_figure, joint_figure, splice_figu
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
 from ....wording import point
-from ...document import FACE_VALUE, NEAR, PRINTED, RECONSTRUCTION, spheres, truth_scene
+from ...document import FACE_VALUE, PRINTED, RECONSTRUCTION, spheres, truth_scene
 from ...drawings import among_spheres, played
-from ...reading import Improved, Splice, ends_beside
+from ...ends import count_rules, counted, meeting_rules, met, outcome
+from ...reading import Improved, Splice
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 
@@ -40,29 +41,16 @@ def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
 def _summary(plan: SearchPlan) -> dict[str, Any]:
     check = truth(plan)
     contact = {"gap_rad": plan.gap, "free": check.free, "clearance": check.clearance}
-    return ends_beside(plan, PRINTED.meeting) | contact
+    return outcome(plan, PRINTED.meeting) | contact
 
 
-@checks(
-    "qiu.claim_bi_counts",
-    rules=[
-        Rounds("forward", "searches of the forward half", to="forward"),
-        Rounds("backward", "searches of the backward half", to="backward"),
-        Is("joined", "the two halves meet", value=True),
-    ],
-)
+@checks("qiu.claim_bi_counts", rules=count_rules("the two halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     plans = _readings(assumed)
     face, other = (_summary(plan) for plan in plans.values())
     return Result(
-        obtained={
-            "forward": face["searches"],
-            "backward": face["searches"],
-            "joined": face["reason"] == "reached",
-            "face_value": face,
-            "reconstruction": other,
-        },
+        obtained=counted(face, other),
         caption=(
             f"The halves need {face['searches']} searches each with the printed gains and "
             f"{other['searches']} in the reconstruction; "
@@ -77,29 +65,14 @@ def _worst(summary: dict[str, Any]) -> str:
     return f"is not free: the smallest distance, {1e3 * value:.0f} mm, is to the {name}."
 
 
-@checks(
-    "qiu.claim_bi_meet",
-    rules=[
-        Rounds(key="forward", to="forward", label="end of the forward half [m]", **NEAR),
-        Rounds(key="backward", to="backward", label="end of the backward half [m]", **NEAR),
-        Is("joined", "the two halves meet", value=True),
-    ],
-)
+@checks("qiu.claim_bi_meet", rules=meeting_rules("the two halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the halves end, against print."""
     plans = _readings(assumed)
     face, other = (_summary(plan) for plan in plans.values())
-    printed_gap = float(np.linalg.norm(np.subtract(*PRINTED.meeting)))
+    made = met(face, other, PRINTED.meeting)
     return Result(
-        obtained={
-            "forward": face["ends"][0],
-            "backward": face["ends"][1],
-            "joined": face["reason"] == "reached",
-            "gap_tip": face["gap_tip"],
-            "printed_gap_tip": printed_gap,
-            "distance_to_print": face["distance_to_print"],
-            "reconstruction": other,
-        },
+        obtained=made,
         caption=(
             f"At face value the halves end ({face['reason']}) at "
             f"({point(np.array(face['ends'][0]), 3)}) m, "
@@ -107,7 +80,7 @@ def meeting(assumed: Assumed) -> Result:
             f"({point(np.array(other['ends'][0]), 3)}) m, "
             f"{1e3 * max(other['distance_to_print']):.0f} mm from print. The centre of the first "
             f"sphere is at z = {PRINTED.centres[0, 2]:.3f} m. The gap of the tips is "
-            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * printed_gap:.1f} mm."
+            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * made['printed_gap_tip']:.1f} mm."
         ),
     )
 
