@@ -155,13 +155,14 @@ def arm_in_use(tool: float = 0.0, radii: tuple[float, ...] | None = None) -> Arm
 def placed(
     name: str,
     *,
-    yaw: float = 90.0,
+    yaw: float | None = None,
     base: np.ndarray | None = None,
     tool: float = 0.0,
     radii: tuple[float, ...] | None = None,
 ) -> PlacedArm:
-    """An arm on its printed base, or on another one; ``yaw`` in degrees."""
-    rotation = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(yaw))
+    """An arm on its printed base, or on another one, turned by ``yaw`` [deg] or as assumed."""
+    turn = REGISTRY.assumption("qiu.base_yaw") if yaw is None else yaw
+    rotation = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(turn))
     origin = PRINTED.bases[name] if base is None else base
     return PlacedArm(name, arm_in_use(tool, radii), pin.SE3(rotation, origin))
 
