@@ -8,22 +8,11 @@ from importlib.util import find_spec
 import numpy as np
 from timing import OURS, Row, timed
 
-from dualarm_repro.papers import load
-from dualarm_repro.papers.qiu.readings import (
-    IMPROVED,
-    IMPROVED_VARIANT,
-    circles,
-    master_arm,
-    master_posture,
-    reconstructed,
-    settings,
-    slave_posture,
-)
-from dualarm_repro.papers.qiu.scenario import START, placed, repelling, truth_scene
+from dualarm_repro.papers.qiu.document import PRINTED, placed, repelling, truth_scene
+from dualarm_repro.papers.qiu.two_arms import Slave
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from dualarm_repro.planning.search.rrt_connect import plan_rrt_connect
-from dualarm_repro.planning.search.splice import smoothed
 from dualarm_repro.planning.search.time_map import hull_tracks
 
 TASK, REBUILT = "search of one master", "the same with the reconstructed gains"
@@ -32,20 +21,17 @@ BOTH = "master, its hull, and the slave around it"
 
 def measure() -> Iterator[Row]:
     """Rows of this suite; a peer that is not installed is left out."""
-    entries = load().papers["qiu"].assumptions.items()
-    values = {key: entry.value for key, entry in entries}
-    master, slave = master_arm(values), placed("slave")
-    goals = master_posture(values), slave_posture(values)
-    chosen = settings(values, IMPROVED_VARIANT)
-    rebuilt = settings(reconstructed(values, IMPROVED), IMPROVED_VARIANT)
+    reading, slave, start = Slave.nominal(), placed("slave"), PRINTED.start
+    master, goals = reading.arm(), (reading.posture(), reading.slave_posture())
+    chosen, rebuilt = reading.settings(), reading.reconstructed().settings()
 
     def alone(planner: Callable[..., object] = plan_bidirectional_compiled, how: object = chosen):
-        return planner(master, START, goals[0], repelling(), how)
+        return planner(master, start, goals[0], repelling(), how)
 
     def both() -> object:
-        path = smoothed(alone().path, 1.0, 1e4)
-        hulls = hull_tracks(master, path, circles(values), 31)
-        return plan_bidirectional_compiled(slave, START, goals[1], repelling(True), chosen, hulls)
+        path, spread = reading.smooth(alone().path), round(reading.schedule_steps)
+        hulls = hull_tracks(master, path, reading.circles(), spread)
+        return plan_bidirectional_compiled(slave, start, goals[1], repelling(True), chosen, hulls)
 
     yield timed(TASK, OURS, alone, 1)
     yield timed(TASK, f"{OURS}, readable", lambda: alone(plan_bidirectional), 1)
@@ -56,6 +42,6 @@ def measure() -> Iterator[Row]:
         yield timed(
             TASK,
             "RRT-Connect of OMPL, whole links",
-            lambda: plan_rrt_connect(scene, START, goals[0], int(next(seeds))),
+            lambda: plan_rrt_connect(scene, start, goals[0], int(next(seeds))),
             1,
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -13,38 +15,12 @@ from ...planning.search.bidirectional import repulsive_torque, surroundings_at
 from ...planning.search.failure import Failure, classify
 from ...planning.search.search_problem import search_problem
 from ...planning.tasks.tip_goal import nearest_posture
-from .execution import executed
-from .hull_model import protrusions
-from .printed_points import meeting, trap
-from .readings import (
-    CONTROL_POINTS,
-    HULL,
-    TRADITIONAL_VARIANT,
-    dual_plan,
-    improved_plan,
-    reconstructed,
-    settings,
-    smooth,
-    traditional_plan,
-)
-from .scenario import (
-    BASES,
-    CENTRES,
-    ETA0,
-    INFLUENCE,
-    MASTER_GOAL,
-    RADIUS,
-    SEED,
-    START,
-    THRESHOLD,
-    ZETA,
-    placed,
-    reach,
-    repelling,
-    shoulder,
-)
-from .search_rules import nominal_values
-from .two_sided import truth
+from .document import PRINTED, SEED, goal_to_surface, placed, reach, repelling, shoulder_to_goal
+from .pages.geometry.task import gap_by_turn
+from .pages.master_slave.hull import protrusions
+from .pages.two_sided.halves import truth
+from .reading import CONTROL_POINTS, Hull, Improved, Splice, Traditional
+from .two_arms import Slave, executed
 
 _DIRECTIONS = 400
 
@@ -52,8 +28,7 @@ _DIRECTIONS = 400
 @REGISTRY.proves("qiu.start_tip")
 def start_tip() -> Proof:
     """The tip at the printed joints of both arms against both printed tips."""
-    angles = np.array(REGISTRY.printed("qiu.claim_start")["q"], dtype=float)
-    gaps, beyond = {}, {}
+    angles, gaps, beyond = PRINTED.start, {}, {}
     for name, item, key in (
         ("master", "claim_start", "tcp"),
         ("slave", "claim_slave_task", "start"),
@@ -75,12 +50,11 @@ def goal_out_of_reach() -> Proof:
     """Distance of the printed goal from the shoulder against the straight arm, and by
     optimisation.
     """
-    distance = float(np.linalg.norm(MASTER_GOAL - shoulder(BASES["master"])))
-    best = nearest_posture(placed("master"), MASTER_GOAL, START)
+    distance = shoulder_to_goal()
+    best = nearest_posture(placed("master"), PRINTED.master_goal, PRINTED.start)
     return Proof(
         "no posture brings the flange to the printed goal: the straight arm is shorter than its "
-        "distance "
-        "from the shoulder, and the best posture found misses it by just that much",
+        "distance from the shoulder, and the best posture found misses it by just that much",
         distance > reach() and abs(best.residual - (distance - reach())) < 1e-6,
         {
             "distance": distance,
@@ -95,14 +69,14 @@ def goal_out_of_reach() -> Proof:
 def singular_goal() -> Proof:
     """Singular values of the Jacobian nearest to the goal, at the start and along the path used."""
     arm = placed("master").arm
-    best = nearest_posture(placed("master"), MASTER_GOAL, START)
+    best = nearest_posture(placed("master"), PRINTED.master_goal, PRINTED.start)
     position = np.linalg.svd(arm.jacobian(best.q)[:3], compute_uv=False)
-    path = smooth(nominal_values(), improved_plan(nominal_values()))
+    path = Splice.nominal().smooth(Improved.nominal().plan().path)
     along = np.linalg.svd(arm.jacobian(path), compute_uv=False)[:, -1]
-    start = np.linalg.svd(arm.jacobian(START), compute_uv=False)
+    start = np.linalg.svd(arm.jacobian(PRINTED.start), compute_uv=False)
     return Proof(
-        "where the flange is nearest to the printed goal the position Jacobian is singular, and at "
-        "the printed start, all joints zero, the whole Jacobian is, with axes 4 and 6 aligned",
+        "where the flange is nearest to the printed goal the position Jacobian is singular, and "
+        "at the printed start, all joints zero, the whole Jacobian is, with axes 4 and 6 aligned",
         bool(position[-1] < 1e-3 * position[0] and start[-1] < 1e-9 * start[0]),
         {
             "smallest_at_the_printed_start": float(start[-1]),
@@ -115,14 +89,13 @@ def singular_goal() -> Proof:
 @REGISTRY.proves("qiu.symmetry_axis")
 def symmetry_axis() -> Proof:
     """Reflections of the master base in the coordinate axes and planes."""
-    master, slave = BASES["master"], BASES["slave"]
+    master, slave = PRINTED.bases.values()
     about_x = master * [1, -1, -1]
     in_yz = master * [-1, 1, 1]
     shift = slave - master
     return Proof(
         "a half turn about the X axis leaves the master base where it is; a reflection in the YZ "
-        "plane, or "
-        "a translation along X, carries it to the slave base",
+        "plane, or a translation along X, carries it to the slave base",
         bool(
             np.allclose(about_x, master)
             and np.allclose(in_yz, slave)
@@ -135,17 +108,13 @@ def symmetry_axis() -> Proof:
 @REGISTRY.proves("qiu.base_yaw")
 def base_yaw() -> Proof:
     """Distance of the tip at zero joints from the printed tip for the four quarter turns."""
-    printed = np.array([float(x) for x in REGISTRY.printed("qiu.claim_start")["tcp"]])
-    gaps = {
-        yaw: float(np.linalg.norm(end_effector(placed("master", yaw=yaw), START) - printed))
-        for yaw in (0.0, 90.0, 180.0, 270.0)
-    }
+    gaps = gap_by_turn()
     order = sorted(gaps, key=gaps.get)
     return Proof(
         "of the four quarter turns one brings the tip at zero joints ten times nearer to the "
         "printed one than any other",
-        order[0] == 90.0 and 10.0 * gaps[order[0]] < gaps[order[1]],
-        {f"{yaw:g} deg": gap for yaw, gap in gaps.items()},
+        order[0] == 90 and 10.0 * gaps[order[0]] < gaps[order[1]],
+        {f"{yaw} deg": gap for yaw, gap in gaps.items()},
     )
 
 
@@ -155,32 +124,31 @@ def gains_against_points() -> Proof:
 
     The flange is put at the trap in many orientations and every branch of the inverse kinematics.
     """
-    arm = placed("master")
-    ratios = []
-    made = search_problem(
-        arm, START, START, repelling(), settings(nominal_values(), TRADITIONAL_VARIANT)
-    )
-    target, gains = arm.placement.inverse().act(trap()), np.full(len(made.points.joint), ETA0)
+    arm, start, eta0 = placed("master"), PRINTED.start, PRINTED.eta0
+    largest, ratios = PRINTED.threshold * PRINTED.zeta, []
+    made = search_problem(arm, start, start, repelling(), Traditional.nominal().settings())
+    target = arm.placement.inverse().act(PRINTED.trap)
+    gains = np.full(len(made.points.joint), eta0)
     for rotation in _rotations():
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = rotation, target
         for q in arm.arm.ik(pose):
             found = surroundings_at(made, 0, q, 0)
             torque = repulsive_torque(made, found, gains)
-            ratios.append(float(np.linalg.norm(torque)) / (THRESHOLD * ZETA))
-    surface = [float(np.linalg.norm(p - CENTRES[0]) - RADIUS) for p in (trap(), *meeting())]
-    flange = inverse_distance_force(surface[0], ETA0, INFLUENCE, 1e-3)
+            ratios.append(float(np.linalg.norm(torque)) / largest)
+    points = np.vstack([PRINTED.trap, PRINTED.meeting])
+    surface = [float(np.linalg.norm(p - PRINTED.centres[0]) - PRINTED.radius) for p in points]
+    flange = inverse_distance_force(surface[0], eta0, PRINTED.influence, 1e-3)
     return Proof(
         "with the textbook form of (7)-(9) and the printed gains, no posture that has its flange "
-        "at the "
-        "printed trap is in balance: repulsion exceeds the largest possible attraction in all of "
-        "them",
+        "at the printed trap is in balance: repulsion exceeds the largest possible "
+        "attraction in all of them",
         min(ratios) > 10.0,
         {
             "postures": len(ratios),
             "least_repulsion_over_attraction": min(ratios),
             "force_on_the_flange": float(flange),
-            "largest_attraction": THRESHOLD * ZETA,
+            "largest_attraction": largest,
             "distances_of_printed_points": surface,
             "balance_distance": _balance_distance(),
         },
@@ -195,9 +163,9 @@ def _balance_distance() -> float:
     """Distance at which the force on one point equals the largest attraction (lever of half a
     metre).
     """
-    rho = np.linspace(0.01, INFLUENCE, 100_001)
-    force = 0.5 * ETA0 * (1.0 / rho - 1.0 / INFLUENCE) / rho**2
-    return float(rho[np.abs(force - THRESHOLD * ZETA).argmin()])
+    rho = np.linspace(0.01, PRINTED.influence, 100_001)
+    force = 0.5 * PRINTED.eta0 * (1.0 / rho - 1.0 / PRINTED.influence) / rho**2
+    return float(rho[np.abs(force - PRINTED.threshold * PRINTED.zeta).argmin()])
 
 
 @REGISTRY.proves("qiu.goal_inside_range")
@@ -205,14 +173,13 @@ def goal_inside_range() -> Proof:
     """Distances of the printed goal from both spheres, and the class of the failed one-way
     search.
     """
-    gaps = (np.linalg.norm(MASTER_GOAL - CENTRES, axis=1) - RADIUS).tolist()
-    plan = traditional_plan(nominal_values())
+    gaps, plan = goal_to_surface().tolist(), Traditional.nominal().plan()
     failure = classify(plan)
     return Proof(
-        "both spheres reach the goal with their repulsion, and the one-way search with the printed "
-        "gains "
-        "fails because its goal is no equilibrium: begun at the goal, it rests at the same place",
-        max(gaps) < INFLUENCE and failure is Failure.DISPLACED_GOAL,
+        "both spheres reach the goal with their repulsion, and the one-way search with the "
+        "printed gains fails because its goal is no equilibrium: begun at the goal, "
+        "it rests at the same place",
+        max(gaps) < PRINTED.influence and failure is Failure.DISPLACED_GOAL,
         {"goal_to_surfaces": gaps, "failure": str(failure), "searches": plan.searches},
     )
 
@@ -221,13 +188,12 @@ def goal_inside_range() -> Proof:
 def control_point_frames() -> Proof:
     """Origins of joints 3, 5 and 6 under a modified table and in a robot description."""
     arm = placed("master").arm
-    origins = arm.joint_positions(START)
+    origins = arm.joint_positions(PRINTED.start)
     modified = origins[[2, 4, 5]]
-    described = origins[np.array(CONTROL_POINTS["elbow_wrist_flange"][0]) - 1]
+    described = origins[np.array(CONTROL_POINTS["elbow_wrist_flange"].frames) - 1]
     return Proof(
-        "with the frames of a modified table the last two control points are one point; with those "
-        "of a "
-        "robot description the three are distinct",
+        "with the frames of a modified table the last two control points are one point; with "
+        "those of a robot description the three are distinct",
         bool(
             np.linalg.norm(modified[1] - modified[2]) < 1e-12
             and np.linalg.norm(described[1] - described[2]) > 0.01
@@ -239,9 +205,9 @@ def control_point_frames() -> Proof:
 @REGISTRY.proves("qiu.hull_incomplete")
 def hull_incomplete() -> Proof:
     """How far links stick out of the hull over random postures."""
-    arm, values = placed("master"), nominal_values()
+    arm = placed("master")
     q = arm.arm.random_configurations(100, np.random.default_rng(SEED))
-    sticking = protrusions(arm, q, {name: values[name] for name in HULL})
+    sticking = protrusions(arm, q, Hull.nominal().circles())
     always = float(sticking.max(axis=1).min())
     return Proof(
         "in every one of 100 random postures a link sticks out of the hull",
@@ -259,13 +225,12 @@ def collision_scope() -> Proof:
     """The joint plan of both arms at face value: clear at the control points, not for whole
     links.
     """
-    plan = dual_plan(nominal_values())
+    plan = Slave.nominal().dual_plan()
     check = executed(plan)
     seen = plan.slave.control_clearance
     return Proof(
         "one and the same plan is free for the control points and collides with whole links, so "
-        "that the "
-        "statement depends on the geometry it was tested for",
+        "that the statement depends on the geometry it was tested for",
         seen > 0.0 > check.clearance["arms"],
         {"control_points": seen, "links": check.clearance["arms"]},
     )
@@ -274,12 +239,11 @@ def collision_scope() -> Proof:
 @REGISTRY.proves("qiu.smoothing_clearance")
 def smoothing_clearance() -> Proof:
     """Clearance before and after the spline, for growing mu."""
-    values = nominal_values()
-    plan = improved_plan(values | reconstructed(values, ()))
+    plan, splice = Improved.nominal().reconstructed().plan(), Splice.nominal()
     before = truth(plan).clearance
     changes = {}
     for mu in (0.1, 1.0, 10.0, 100.0, 1e4):
-        after = truth(plan, smooth(values | {"smoothing_weight": mu}, plan)).clearance
+        after = truth(plan, replace(splice, smoothing_weight=mu).smooth(plan.path)).clearance
         changes[f"{mu:g}"] = {name: after[name] - before[name] for name in before}
     worst = min(change for row in changes.values() for change in row.values())
     return Proof(

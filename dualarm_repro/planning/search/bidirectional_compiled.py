@@ -68,7 +68,7 @@ class SearchRules(NamedTuple):
     cap: float
     weights: np.ndarray
     two_sided: bool
-    backward_first: bool
+    aims_at_old_end: bool
     tolerance: float
     limit: int
     stuck_searches: int
@@ -210,7 +210,7 @@ def run(field, rules, hulls, start, goal, rows, memory):
         if reason < 0:
             move(field, rules, 0, turn, force, rows, memory)
         if rules.two_sided:
-            late = reason < 0 and not rules.backward_first
+            late = reason < 0 and not rules.aims_at_old_end
             aim = rows.path[0, turn + 1] if late else forward
             resultant(field, rules, hulls[1], 1, turn, aim, rows, memory, around, force)
             if reason < 0:

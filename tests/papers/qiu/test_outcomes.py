@@ -1,70 +1,59 @@
 """Outcomes of the runs of `qiu`: campaigns, execution of both arms, hull, stored studies."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from dualarm_repro.ledger import REGISTRY
-from dualarm_repro.papers.qiu import improvements, studies
-from dualarm_repro.papers.qiu.campaign import campaign, rate
-from dualarm_repro.papers.qiu.execution import both_arms, dual_scene, executed
-from dualarm_repro.papers.qiu.goals import draw_goals
-from dualarm_repro.papers.qiu.hull_model import protrusions
-from dualarm_repro.papers.qiu.random_tasks import random_task
-from dualarm_repro.papers.qiu.readings import (
-    IMPROVED_VARIANT,
-    SLAVE,
-    TRADITIONAL_VARIANT,
-    dual_plan,
-    link_radii,
-    reconstructed,
-    traditional_plan,
+from dualarm_repro.papers import load
+from dualarm_repro.papers.qiu.document import PRINTED, dual_scene, placed, truth_scene
+from dualarm_repro.papers.qiu.pages.master_slave.hull import protrusions
+from dualarm_repro.papers.qiu.reading import (
+    ONE_SIDED,
+    GoalBox,
+    Hull,
+    Improved,
+    Links,
+    Traditional,
 )
-from dualarm_repro.papers.qiu.scenario import ZETA, placed
+from dualarm_repro.papers.qiu.studies.improvements import RATIOS, nearest
+from dualarm_repro.papers.qiu.two_arms import Slave, both_arms, executed
 from dualarm_repro.planning.checks.contact_check import contact_check
 from dualarm_repro.planning.search.bidirectional import repulsive_torque, surroundings_at
 from dualarm_repro.planning.search.failure import Failure, classify
+from dualarm_repro.planning.trials.campaign import campaign
 from dualarm_repro.scene import JointPath
 
-
-@pytest.fixture(scope="module")
-def values():
-    return REGISTRY.nominal("qiu")
+STUDIES = [study for name, study in load().studies.items() if name.startswith("qiu_")]
 
 
-def test_improved_is_at_least_as_good_as_traditional(values):
-    goals = draw_goals(values, 7)
+def test_improved_is_at_least_as_good_as_traditional():
+    goals = GoalBox.nominal().draw(7).q
     for ratio in (1e-4, 1e-2, 1.0):
-        changed = values | {"gain_ratio": ratio}
-        one, two = (campaign(changed, v, goals) for v in (TRADITIONAL_VARIANT, IMPROVED_VARIANT))
+        reading = Improved.nominal(gain_ratio=ratio)
+        scene = truth_scene([reading.arm()])
+        two, one = (
+            campaign(lambda q, v=v, r=reading: r.plan_to(q, v), goals, scene)
+            for v in (None, ONE_SIDED)
+        )
         assert sum(two.planner) >= sum(one.planner)
-        for made in (one, two):
-            assert all(p or not t for p, t in zip(made.planner, made.truth, strict=True))
-            assert len(made.searches) == sum(made.planner)
-            assert sum(made.failures.values()) == len(made.planner) - sum(made.planner)
 
 
-def test_rate_has_an_interval():
-    found = rate([True] * 9 + [False])
-    assert found["successes"] == 9
-    assert found["of"] == 10
-    assert found["low"] < found["rate"] < found["high"]
-
-
-def test_goal_is_displaced_by_the_ratio_in_proportion(values):
+def test_goal_is_displaced_by_the_ratio_in_proportion():
     """Close to a goal that obstacles repel, attraction zeta e balances the repulsion there."""
-    plan = traditional_plan(values | {"gain_ratio": 1e-3, "joint_tolerance": 1e-3})
+    plan = Traditional.nominal(gain_ratio=1e-3, joint_tolerance=1e-3).plan()
     assert classify(plan) is Failure.DISPLACED_GOAL
     made = plan.problem
     found = surroundings_at(made, 0, made.goal, 0)
-    torque = repulsive_torque(made, found, np.full(3, 1e-3 * ZETA))
+    torque = repulsive_torque(made, found, np.full(3, 1e-3 * PRINTED.zeta))
     rest = plan.path[-30:].mean(axis=0)
     assert np.linalg.norm(rest - made.goal) == pytest.approx(
-        np.linalg.norm(torque) / ZETA, rel=0.35
+        np.linalg.norm(torque) / PRINTED.zeta, rel=0.35
     )
 
 
-def test_replay_reproduces_the_reported_clearance(values):
-    plan = dual_plan(reconstructed(values, SLAVE))
+def test_replay_reproduces_the_reported_clearance():
+    plan = Slave.nominal().reconstructed().dual_plan()
     reported = executed(plan)
     master, slave = both_arms(plan)
     moving = dual_scene().replaying("master", JointPath(master))
@@ -74,33 +63,30 @@ def test_replay_reproduces_the_reported_clearance(values):
     assert abs(other.clearance["arms"] - reported.clearance["arms"]) > 1e-3
 
 
-def test_thinner_links_leave_more_room(values):
-    plan = dual_plan(reconstructed(values, SLAVE))
-    thin = link_radii(values | {"link_radius_scale": 0.8})
+def test_thinner_links_leave_more_room():
+    plan = Slave.nominal().reconstructed().dual_plan()
+    thin = Links.nominal(link_radius_scale=0.8).radii
     assert executed(plan, radii=thin).smallest > executed(plan).smallest
 
 
-def test_protrusion_is_zero_for_circles_as_thick_as_a_wall(values):
-    arm = placed("master")
+def test_protrusion_is_zero_for_circles_as_thick_as_a_wall():
+    arm, hull = placed("master"), Hull.nominal()
     q = arm.arm.random_configurations(5, np.random.default_rng(2))
-    wide = values | {"hull_radii": [0.5] * 6}
-    assert protrusions(arm, q, wide).max() < protrusions(arm, q, values).max()
+    wide = replace(hull, hull_radii=(0.5,) * 6)
+    assert protrusions(arm, q, wide.circles()).max() < protrusions(arm, q, hull.circles()).max()
 
 
-@pytest.mark.parametrize(
-    "study",
-    [studies.ABLATION, studies.FIT, studies.SCENES, studies.PAIRS, improvements.IMPROVEMENTS],
-    ids=lambda study: study.name,
-)
+@pytest.mark.parametrize("study", STUDIES, ids=lambda study: study.name)
 def test_stored_study_is_what_the_code_gives(study):
     assert len(study.load()) == len(study.cells())
     assert study.spot_check(1, seed=11) == []
 
 
-def test_random_tasks_are_blocked_and_their_ends_are_clear():
-    rng = np.random.default_rng(4)
-    scene, start, goal = random_task(3, rng)
-    assert contact_check(scene, np.array([start, goal])).smallest < 0.0
-    for q in (start, goal):
-        assert contact_check(scene, np.array([q, q])).free
-    assert len(scene.obstacles) == 3
+def test_all_studies_are_registered():
+    assert len(STUDIES) == 5
+
+
+def test_the_stored_ratio_is_the_nearest_by_its_factor():
+    assert nearest(0.04) == 0.1
+    assert nearest(0.02) == 0.01
+    assert all(nearest(ratio) == ratio for ratio in RATIOS)

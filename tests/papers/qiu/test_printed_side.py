@@ -1,10 +1,13 @@
 """What `qiu` prints decides: another formula or digit in the ledger gives another verdict."""
 
+from contextlib import ExitStack
+
 import numpy as np
 import pytest
 
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
 from dualarm_repro.ledger.printed import replaced
+from dualarm_repro.papers.qiu.reading import Improved
 
 FORMULAS = {
     "qiu.eq03": ("formula", "X_slaver = X_master * T_trans * T_trans"),
@@ -16,28 +19,33 @@ DIGITS = {
     "qiu.eq03": ("qiu.claim_bases", ("slave", 0), "-0.351"),
     "qiu.fig03": ("qiu.fig03", ("base_slave", 0), "-0.351"),
     "qiu.fig05": ("qiu.fig05", ("joints", "O3"), "4"),
-    "qiu.claim_obstacles": ("qiu.claim_obstacles", ("radius",), "0.2"),
     "qiu.claim_alpha0": ("qiu.claim_bi_counts", ("forward",), "3"),
     "qiu.claim_kappa_range": ("qiu.claim_kappa_range", ("kappa",), "(0,0.5]"),
     "qiu.claim_tau_order": ("qiu.claim_tau_order", ("order",), "tau_1 > tau_2 > tau_3 > 0"),
     "qiu.claim_mu_nonneg": ("qiu.claim_mu_nonneg", ("mu",), ">= 1"),
     "qiu.tab02": ("qiu.tab02", ("goals",), "16"),
-    "qiu.claim_goals15": ("qiu.claim_goals15", ("count",), "16"),
+}
+#: Inputs that the runs are fed with, and another print of them.
+INPUTS = {
+    "qiu.claim_obstacles": ("radius", "0.2"),
+    "qiu.claim_goals15": ("count", "16"),
+    "qiu.claim_alpha0": ("alpha0", "0.06"),
+    "qiu.claim_d": ("d", "0.5"),
+    "qiu.claim_zeta": ("zeta", "2000"),
+    "qiu.claim_rho0": ("rho0", "0.3"),
 }
 
 
 @pytest.fixture
-def printing(monkeypatch):
+def printing():
     """Prints something else at a place of an item."""
+    with ExitStack() as stack:
 
-    def reprint(item_id, path, text):
-        paper = REGISTRY.paper_of(item_id)
-        key = item_id.partition(".")[2]
-        item = paper.items[key]
-        printed = replaced(item.printed, path, text)
-        monkeypatch.setitem(paper.items, key, item.model_copy(update={"printed": printed}))
+        def reprint(item_id, path, text):
+            printed = replaced(REGISTRY.printed(item_id), path, text)
+            stack.enter_context(REGISTRY.with_printed(item_id, printed))
 
-    return reprint
+        yield reprint
 
 
 @pytest.mark.parametrize("item_id", FORMULAS)
@@ -54,6 +62,23 @@ def test_another_digit_gives_another_verdict(item_id, printing):
     before = evaluate(REGISTRY, item_id).verdict
     printing(*DIGITS[item_id])
     assert evaluate(REGISTRY, item_id).verdict is not before
+
+
+@pytest.mark.parametrize("item_id", INPUTS)
+def test_the_runs_are_fed_with_what_is_printed(item_id, printing):
+    key, text = INPUTS[item_id]
+    printing(item_id, (key,), text)
+    found = evaluate(REGISTRY, item_id)
+    assert found.verdict is Verdict.ADOPTED
+    assert found.result.obtained[key] == float(text)
+
+
+def test_another_sphere_gives_another_run(printing):
+    before = Improved.nominal().plan().path
+    assert np.array_equal(before, Improved.nominal().plan().path)
+    printing("qiu.claim_obstacles", ("radius",), "0.12")
+    after = Improved.nominal().plan().path
+    assert before.shape != after.shape or np.abs(before - after).max() > 1e-3
 
 
 def test_start_is_a_contradiction_until_print_agrees_with_itself(printing):

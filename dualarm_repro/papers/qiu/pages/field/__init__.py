@@ -1,0 +1,5 @@
+"""Page `field`: the potential field, its forces and its parameters."""
+
+from . import forces, parameters
+
+__all__ = ["forces", "parameters"]

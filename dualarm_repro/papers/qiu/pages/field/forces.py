@@ -1,0 +1,327 @@
+"""Figures 4 and 5 and equations (4)-(9) of `qiu`: the potential field and its forces."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.formula import parse
+from .....ledger.printed import EXACT
+from .....planning.field.joint_attraction import conic_force, conic_potential
+from .....planning.field.repulsive_force import inverse_distance_force, inverse_distance_potential
+from .....planning.search.bidirectional import repulsive_torque, surroundings_at
+from .....planning.search.bidirectional_settings import Threshold
+from .....planning.search.search_problem import SearchProblem, search_problem
+from .....view.force_field import force_field_figure
+from .....view.tip_paths import TipPanel, tip_path_figure
+from ....wording import point
+from ...document import PRINTED, SEED, placed, repelling, spheres, value_of
+from ...reading import CONTROL_POINTS, Search
+
+checks = partial(REGISTRY.checks, page="qiu/field")
+_CONTACT = 1e-3
+_SAMPLES = 40
+_LOST = "the formula"
+
+
+@checks(
+    "qiu.fig04",
+    rules=[
+        Residual("balance", "sum of the forces against the slope, relative", high=1e-6),
+        NoOriginal("drawing", "the drawing"),
+    ],
+)
+def principle(assumed: Assumed) -> Result:
+    """A point among a goal and an obstacle: both forces and their sum."""
+    goal, centre, radius = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15
+    zeta, threshold, influence = PRINTED.zeta, PRINTED.threshold, PRINTED.influence
+
+    def potential(points: np.ndarray) -> np.ndarray:
+        rho = np.linalg.norm(points - centre, axis=1) - radius
+        pull = [conic_potential(p, goal, zeta, threshold, Threshold.NORM) for p in points]
+        return np.array(pull) + inverse_distance_potential(np.maximum(rho, 0.01), 4.0, influence)
+
+    def forces(point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        away = point - centre
+        rho = np.linalg.norm(away) - radius
+        push = inverse_distance_force(rho, 4.0, influence, _CONTACT) * away / np.linalg.norm(away)
+        return conic_force(point, goal, zeta, threshold, Threshold.NORM), push
+
+    points = np.array([[0.0, 0.25], [0.12, 0.05], [0.45, 0.32], [0.75, -0.2]])
+    balance = max(
+        float(
+            np.linalg.norm(sum(forces(p)) + central_differences(lambda x: potential(x[None])[0], p))
+        )
+        / float(np.linalg.norm(forces(p)[0]))
+        for p in points
+    )
+    return Result(
+        obtained={"balance": balance},
+        caption=(
+            "A point is drawn to its goal and pushed off the obstacle within the range of the "
+            "repulsion. At the four points shown the sum of the forces is the negative slope of "
+            f"the potential to {balance:.0e}. The drawing of the document is lost."
+        ),
+        alt="Level lines of a potential around a disc and a goal; arrows of attraction, repulsion "
+        "and their sum at four points.",
+        figure=lambda: force_field_figure(potential, forces, goal, centre, radius, points),
+    )
+
+
+@checks(
+    "qiu.fig05",
+    rules=[
+        Is("joints", "joints whose origins are the control points", to="joints"),
+        Is("distinct", "the control points are distinct", value=True),
+        NoOriginal("positions", "where the origins of the joints are"),
+    ],
+)
+def control_points(assumed: Assumed) -> Result:
+    """The three control points on the arm at zero joints."""
+    chosen, arm, zero = CONTROL_POINTS[assumed["control_points"]], placed("master"), PRINTED.start
+    origins = arm.arm.joint_positions(zero) @ arm.placement.rotation.T + arm.placement.translation
+    points = origins[np.array(chosen.frames) - 1]
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    panel = TipPanel("control points at zero joints", {}, [(arm, zero)], {"control point": points})
+    return Result(
+        obtained={
+            "joints": {f"O{k}": joint for k, joint in enumerate(chosen.joints, 1)},
+            "points": points.tolist(),
+            "radii": list(chosen.radii),
+            "distinct": bool(apart[~np.eye(len(points), dtype=bool)].min() > EXACT),
+        },
+        caption=(
+            f"Control points as origins of joints {', '.join(chosen.joints)}: "
+            + "; ".join(f"({point(row, 3)}) m" for row in points)
+            + ". Under a modified table the last two of the printed three would be one point, and "
+            "the printed order of three weights would have nothing to tell "
+            "apart. The drawing is lost."
+        ),
+        alt="Stick figure of the arm at zero joints with three marked points: "
+        "elbow, wrist and flange.",
+        figure=lambda: tip_path_figure([panel], []),
+    )
+
+
+@checks(
+    "qiu.eq04",
+    rules=[Residual("difference", "resultant against finite differences, relative", high=1e-5)],
+)
+def resultant(assumed: Assumed) -> Result:
+    """The printed sides on postures along the way, slopes by central differences."""
+    formula = parse(REGISTRY.printed("qiu.eq04")["formula"])
+    made = _problem(Search.nominal())
+    attraction = {
+        "goal": made.goal,
+        "gain": PRINTED.zeta,
+        "threshold": PRINTED.threshold,
+        "measure": Threshold.NORM,
+    }
+    worst = 0.0
+    for q in _postures(made.goal):
+        pull = conic_force(q, **attraction)
+        push = _torque(made, q)
+        given = {
+            "F": pull + push,
+            "F_att": pull,
+            "F_rep": push,
+            "U_att": partial(conic_potential, **attraction),
+            "U_rep": partial(_repulsive, made),
+            "grad": partial(central_differences, x=q),
+        }
+        sides = [value_of(formula, k, given) for k in range(3)]
+        size = float(np.linalg.norm(pull + push))
+        gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
+        worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
+    return Result(
+        obtained={"difference": worst, "postures": _SAMPLES},
+        caption=(
+            f"On {_SAMPLES} postures between start and goal the printed sides, the sum of both "
+            "forces and the negative slopes of both potentials, agree with the resultant of the "
+            f"code to a relative {worst:.0e}, by central differences."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq05",
+    rules=[
+        Residual("jump", "jump of value or slope at the threshold, relative", high=1e-6),
+        Residual("growth_far", "beyond the threshold it grows linearly, to", high=1e-9),
+        NoOriginal("formula", _LOST),
+    ],
+)
+def attractive_potential(assumed: Assumed) -> Result:
+    """Quadratic inside the threshold, conic outside, smooth across it, by either measure."""
+    zeta, d, goal, ray = PRINTED.zeta, PRINTED.threshold, np.zeros(6), np.eye(6)[0]
+    step, jumps, growths = 1e-4 * d, [], []
+    for measure in Threshold:
+        near, inside, at, outside, mid, far = (
+            conic_potential(r * ray, goal, zeta, d, measure)
+            for r in (2 * d, d - step, d, d + step, 2.5 * d, 3 * d)
+        )
+        slopes = (at - inside) / step, (outside - at) / step
+        jumps.append(abs(slopes[1] - slopes[0]) / (zeta * d) - 0.5 * step / d)
+        growths.append(abs(far - 2 * mid + near) / at)
+    return Result(
+        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)},
+        caption=(
+            "The reconstructed attraction is half a square inside the threshold and grows linearly "
+            f"outside; at the threshold the slope jumps by {max(*jumps, 0.0):.0e} of its value, "
+            "whether the threshold applies to the norm of the error or to each joint. The "
+            "printed formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq06",
+    rules=[
+        Residual("difference", "force against finite differences, relative", high=1e-6),
+        Residual("beyond_bound", "largest force beyond its bound, relative", high=1e-12),
+        NoOriginal("formula", _LOST),
+    ],
+)
+def attractive_force(assumed: Assumed) -> Result:
+    """The negative gradient of (5); the threshold bounds it, by either measure."""
+    zeta, d, goal = PRINTED.zeta, PRINTED.threshold, np.zeros(6)
+    rows = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (_SAMPLES, 6))
+    worst, largest, bounds = 0.0, 0.0, {}
+    for measure in Threshold:
+        bound = bounds[str(measure)] = d * zeta * np.sqrt(6.0 if measure != "norm" else 1.0)
+        for q in rows:
+            force = conic_force(q, goal, zeta, d, measure)
+            potential = partial(conic_potential, goal=goal, gain=zeta, threshold=d, measure=measure)
+            slope = central_differences(potential, q)
+            worst = max(worst, float(np.linalg.norm(force + slope)) / bound)
+            largest = max(largest, float(np.linalg.norm(force)) / bound)
+    return Result(
+        obtained={"difference": worst, "beyond_bound": largest - 1.0, "bounds": bounds},
+        caption=(
+            f"The attraction is the negative slope of (5) to {worst:.0e} and never exceeds "
+            f"{bounds['norm']:g} where the threshold applies to the norm of the error and "
+            f"{bounds['per_joint']:.0f} where it applies to each joint. The "
+            "printed formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq07",
+    rules=[
+        Residual("at_range", "value at the end of the range", high=1e-12),
+        Is("grows", "it grows without bound towards the obstacle", value=True),
+        NoOriginal("formula", _LOST),
+    ],
+)
+def repulsive_potential(assumed: Assumed) -> Result:
+    """Zero at the end of the range, unbounded at the obstacle."""
+    rho = np.array([1e-6, 1e-4, 1e-2, 0.1, 0.3, PRINTED.influence, 1.0])
+    values = inverse_distance_potential(rho, PRINTED.eta0, PRINTED.influence)
+    return Result(
+        obtained={
+            "at_range": float(values[-2:].max()),
+            "grows": bool((np.diff(values) <= 0).all() and values[0] > 1e6 * values[2]),
+        },
+        table=pd.DataFrame({"rho_m": rho, "potential": values}),
+        caption=(
+            "The reconstructed repulsion of one control point vanishes from the end of its range "
+            "on and grows without bound towards the obstacle. The printed formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq08",
+    rules=[
+        Residual("direction", "printed direction against the slope of the distance", high=1e-9),
+        Residual("slope", "force against finite differences of (7), relative", high=1e-5),
+        NoOriginal("factor", "the factor in front of the gradient"),
+    ],
+)
+def repulsive_force(assumed: Assumed) -> Result:
+    """The printed gradient of the distance, and the force as the slope of (7)."""
+    formula = parse(REGISTRY.printed("qiu.eq08")["gradient"])
+    made, eta0, influence = _problem(Search.nominal()), PRINTED.eta0, PRINTED.influence
+    balls, worst, direction = list(spheres().values()), 0.0, 0.0
+    for q in _postures(made.goal):
+        found = surroundings_at(made, 0, q, 0)
+        for k, m in zip(*np.nonzero(found.acting(made.settings.repulsion.sources)), strict=True):
+            away = found.points[k] - balls[m].center
+            foot = balls[m].center + balls[m].radius * away / np.linalg.norm(away)
+            printed = value_of(formula, 1, {"a_i": found.points[k], "O_s": foot})
+            gap = float(np.linalg.norm(printed - found.outward[k, m]))
+            direction = max(direction, gap if np.isfinite(gap) else np.inf)
+            rho = float(found.distance[k, m])
+            if rho < influence - 1e-3:
+                slope = central_differences(
+                    lambda x: inverse_distance_potential(x[0], eta0, influence), [rho]
+                )
+                force = inverse_distance_force(rho, eta0, influence, _CONTACT)
+                worst = max(worst, abs(force + float(slope[0])) / max(force, 1.0))
+    return Result(
+        obtained={"direction": direction, "slope": worst},
+        caption=(
+            "The printed direction from the nearest obstacle point to the control point is the "
+            f"slope of the distance in the code to {direction:.0e}; with the factor of the "
+            f"textbook the force is the negative slope of (7) to {worst:.0e}. The factor is "
+            "not in the text edition."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq09",
+    rules=[
+        Residual("difference", "joint forces against finite differences, relative", high=1e-5),
+        NoOriginal("formula", _LOST),
+    ],
+)
+def joint_forces(assumed: Assumed) -> Result:
+    """The sum of transposed velocity Jacobians times point forces, for every control point set."""
+    cases = [("elbow_wrist_flange", "nearest"), *((points, "sum") for points in CONTROL_POINTS)]
+    worst = 0.0
+    for points, sources in cases:
+        made = _problem(Search.nominal(control_points=points, repulsion_sources=sources))
+        for q in _postures(made.goal):
+            torque, numeric = _torque(made, q), -central_differences(partial(_repulsive, made), q)
+            if np.linalg.norm(numeric) > 1.0:
+                gap = float(np.linalg.norm(torque - numeric) / np.linalg.norm(numeric))
+                worst = max(worst, gap)
+    return Result(
+        obtained={"difference": worst, "cases": len(cases)},
+        caption=(
+            "Carried over by transposed Jacobians, the point forces are the negative slope of the "
+            f"repulsive potential over the joints, to a relative {worst:.0e}, for every set of "
+            "control points. The printed formula is lost."
+        ),
+    )
+
+
+def _problem(reading: Search) -> SearchProblem:
+    """The master between start and pulled-back goal, for evaluating terms."""
+    ends = PRINTED.start, reading.posture()
+    return search_problem(reading.arm(), *ends, repelling(), reading.settings())
+
+
+def _postures(goal: np.ndarray) -> np.ndarray:
+    """Postures around the straight line from start to goal, clear of the creases where the nearest
+    obstacle of a control point changes."""
+    rng = np.random.default_rng(SEED)
+    share = rng.uniform(0.0, 0.45, _SAMPLES)
+    return share[:, np.newaxis] * goal + rng.normal(0.0, 0.1, (_SAMPLES, 6))
+
+
+def _repulsive(made: SearchProblem, q: np.ndarray) -> float:
+    found, repulsion = surroundings_at(made, 0, q, 0), made.settings.repulsion
+    values = inverse_distance_potential(found.distance, repulsion.gain, repulsion.influence)
+    return float((values * found.acting(repulsion.sources)).sum())
+
+
+def _torque(made: SearchProblem, q: np.ndarray) -> np.ndarray:
+    gains = np.full(len(made.points.joint), made.settings.repulsion.gain)
+    return repulsive_torque(made, surroundings_at(made, 0, q, 0), gains)

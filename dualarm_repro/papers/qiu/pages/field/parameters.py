@@ -1,0 +1,245 @@
+"""Equations (10) and (12) of `qiu`, and the gains, lengths and intervals printed for its field."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.formula import parse
+from .....ledger.printed import EXACT
+from .....planning.checks.recorded_steps import step_difference
+from .....planning.descent.adaptive_step import step_length
+from .....planning.field.variable_gain import gain_factor
+from .....planning.search.bidirectional_settings import GainRule, StepRule
+from .....planning.settings import code
+from ...document import PRINTED, goal_to_surface, printed, value_of
+from ...reading import Goal, VariableGain
+
+checks = partial(REGISTRY.checks, page="qiu/field")
+_SCALE = {"rad": 1.0, "deg": np.pi / 180.0}
+_FLIPS = 3
+
+
+@checks(
+    "qiu.eq10",
+    rules=[
+        Residual(
+            "step_difference",
+            "steps of a search with variable gain against the printed product [rad]",
+            high=1e-9,
+        ),
+        Residual("outside_band", "distance of lambda from one outside its band", high=1e-12),
+        Bounded("at_flip", "lambda where the resultant has flipped", high="weaker"),
+        NoOriginal("lambda", "the formula of lambda"),
+    ],
+)
+def variable_gain(assumed: Assumed) -> Result:
+    """The printed product in a run, and the factor in its three candidate forms."""
+    rule, kappa, band = GainRule(assumed["gain_rule"]), assumed["kappa"], assumed["delta_rho"]
+    at, offsets = 0.2, np.linspace(-0.15, 0.15, 61)
+
+    def factors(chosen: GainRule) -> np.ndarray:
+        return np.array(
+            [gain_factor(code(chosen), kappa, band, at + x, at, _FLIPS) for x in offsets]
+        )
+
+    forms = {str(r): factors(r) for r in (GainRule.POWER, GainRule.RAMP, GainRule.PROPORTIONAL)}
+    outside = np.abs(offsets) > band + 1e-9
+    formula = parse(REGISTRY.printed("qiu.eq10")["formula"])
+    plan = VariableGain.nominal().plan()
+    difference = step_difference(
+        plan, 0, lambda factor, initial: value_of(formula, 1, {"lambda_": factor, "eta_0": initial})
+    )
+    return Result(
+        obtained={
+            "step_difference": difference,
+            "outside_band": float(max(np.abs(f[outside] - 1.0).max() for f in forms.values())),
+            "at_flip": float(forms[str(rule)][len(offsets) // 2]),
+        },
+        table=pd.DataFrame({"rho_minus_rho_s_m": offsets} | forms),
+        caption=(
+            "With the printed product for the gain, every step of a run with "
+            f"{plan.record.flips[0]} flips is what the code makes, to {difference:.0e} rad. After "
+            f"{_FLIPS} flips the three candidate forms take lambda at the flip to "
+            + ", ".join(f"{f[len(offsets) // 2]:.3f} ({name})" for name, f in forms.items())
+            + " and leave it at one outside the band. Which of them was meant is not printed."
+        ),
+    )
+
+
+@checks(
+    "qiu.eq12",
+    rules=[
+        Is("rises", "the step never falls as the arm moves away from obstacles", value=True),
+        Bounded("near_over_far", "step beside an obstacle over step far away", high="shorter"),
+        Bounded(
+            "flange_over_elbow", "gain of step by a far flange over a far elbow", low="heavier"
+        ),
+        NoOriginal("formula", "the formula"),
+    ],
+)
+def adaptive_step(assumed: Assumed) -> Result:
+    """The step in its candidate forms, and which control point counts most."""
+    tau = np.array(assumed["weights"], dtype=float)
+    tau /= tau.sum()
+    floor, chosen = assumed["step_floor"], StepRule(assumed["adaptive_step"])
+    alpha0, influence = PRINTED.alpha0, PRINTED.influence
+    rho = np.linspace(0.0, 1.0, 101)
+
+    def step(rule: StepRule, distances: np.ndarray) -> float:
+        return step_length(code(rule), alpha0, floor, 2.0, tau, distances, influence)
+
+    forms = {str(rule): np.array([step(rule, np.full(3, r)) for r in rho]) for rule in StepRule}
+    used = forms[str(chosen)]
+    near = np.full(3, 0.5 * influence)
+    flange, elbow = (
+        step(chosen, near + 0.5 * influence * np.eye(3)[k]) - step(chosen, near) for k in (2, 0)
+    )
+    return Result(
+        obtained={
+            "rises": bool((np.diff(used) >= 0).all()),
+            "near_over_far": float(used[0] / used[-1]),
+            "flange_over_elbow": flange / elbow if elbow > 0.0 else None,
+            "largest_over_alpha0": {name: float(f.max() / alpha0) for name, f in forms.items()},
+        },
+        table=pd.DataFrame({"rho_m": rho} | forms),
+        caption=(
+            f"The form used ({chosen}) takes the step from {used[0] / alpha0:.2f} of the first one "
+            f"beside an obstacle to {used[-1] / alpha0:.2f} far away; of all forms "
+            + ", ".join(name for name, f in forms.items() if f.max() > alpha0 * (1 + 1e-9))
+            + f" exceeds the first step, up to {max(f.max() for f in forms.values()) / alpha0:g} "
+            "times. The formula is lost."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_alpha0",
+    rules=[
+        Adopts("alpha0", "first step", to="alpha0"),
+        Bounded(
+            "steps_missing",
+            "steps of the straight joint line beyond those that the printed "
+            "searches of both ends make",
+            high=0.0,
+        ),
+    ],
+)
+def first_step(assumed: Assumed) -> Result:
+    """The first step, and whether the printed searches cover the straight line in its unit."""
+    unit, alpha0 = assumed["angle_unit"], PRINTED.alpha0
+    straight = float(np.linalg.norm(Goal.of(assumed).posture() - PRINTED.start))
+    needed = straight / (alpha0 * _SCALE[unit])
+    made = int(printed("claim_bi_counts", "forward", "backward").sum())
+    return Result(
+        obtained={
+            "alpha0": alpha0,
+            "steps_missing": needed - made,
+            "steps_for_the_straight_line": needed,
+            "least_mean_step_over_alpha0": needed / made,
+        },
+        caption=(
+            f"The step is used as printed, in {unit}: the straight line of {straight:.2f} rad from "
+            f"start to goal takes {needed:.0f} of them, the printed searches of both ends make "
+            f"{made}. A mean step below {needed / made:.2f} of it could not have met print."
+        ),
+    )
+
+
+@checks("qiu.claim_d", samples=32, rules=[Adopts("d", "threshold of the attraction", to="d")])
+def threshold(assumed: Assumed) -> Result:
+    """The threshold d, and the bound on the attraction it gives."""
+    bound = PRINTED.threshold * PRINTED.zeta
+    return Result(
+        obtained={"d": PRINTED.threshold, "largest_attraction": bound},
+        caption=f"The threshold is used as printed; the attraction never exceeds {bound:g}.",
+    )
+
+
+@checks("qiu.claim_zeta", samples=32, rules=[Adopts("zeta", "attractive gain", to="zeta")])
+def attractive_gain(assumed: Assumed) -> Result:
+    """The attractive gain."""
+    return Result(
+        obtained={"zeta": PRINTED.zeta},
+        caption=(
+            "The gain is used as printed. As every step has the same length, only the ratio of the "
+            "repulsive gain to it counts."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_eta0",
+    rules=[Adopts("eta0", "initial repulsive gain", to="eta0")],
+    change="another ratio to the attractive gain",
+    samples=32,
+)
+def repulsive_gain(assumed: Assumed) -> Result:
+    """The initial repulsive gain."""
+    eta0 = assumed["gain_ratio"] * PRINTED.zeta
+    return Result(
+        obtained={"eta0": eta0},
+        caption=f"The initial repulsive gain of the runs at face value is {eta0:g}.",
+    )
+
+
+@checks("qiu.claim_rho0", rules=[Adopts("rho0", "range of the repulsion [m]", to="rho0")])
+def repulsion_range(assumed: Assumed) -> Result:
+    """The range of the repulsion."""
+    rho0 = PRINTED.influence
+    within = int((goal_to_surface() < rho0).sum())
+    return Result(
+        obtained={"rho0": rho0, "spheres_within": within},
+        caption=(
+            f"The range is used as printed, as the greatest distance; {within} of the spheres are "
+            "within it of the printed goal."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_kappa_range",
+    rules=[Bounded("beyond", "kappa beyond the printed interval", high=0.0, role=Role.ADOPTS)],
+)
+def kappa_range(assumed: Assumed) -> Result:
+    """The constant of the variable gain lies in the printed interval."""
+    kappa, text = assumed["kappa"], REGISTRY.printed("qiu.claim_kappa_range")["kappa"]
+    low, high = (float(end) for end in text[1:-1].split(","))
+    outside = (kappa == low and text[0] == "(") or (kappa == high and text[-1] == ")")
+    beyond = max(low - kappa, kappa - high, EXACT if outside else -np.inf)
+    return Result(
+        obtained={"beyond": float(beyond), "kappa": kappa},
+        caption=(
+            f"kappa = {kappa:g} is {'inside' if beyond <= 0.0 else 'outside'} the printed interval "
+            f"{text}. With a gain that falls as a power, kappa = 1 leaves it constant."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_tau_order",
+    rules=[
+        Bounded(
+            "least_difference",
+            "smallest difference of neighbours in the printed order, of weights with sum one",
+            low=EXACT,
+            role=Role.ADOPTS,
+        )
+    ],
+)
+def weight_order(assumed: Assumed) -> Result:
+    """The weights of the control points are in the printed order."""
+    tau, text = assumed["weights"], REGISTRY.printed("qiu.claim_tau_order")["order"]
+    known = {f"tau_{k}": weight / sum(tau) for k, weight in enumerate(tau, 1)}
+    chain = [known[name] if name in known else float(name) for name in text.split(" > ")]
+    least = float(-np.diff(chain).max())
+    return Result(
+        obtained={"least_difference": least, "weights": list(tau)},
+        caption=(
+            f"Weights {', '.join(map(str, tau))}: {'in' if least > 0.0 else 'not in'} "
+            f"the printed order {text}."
+        ),
+    )

@@ -1,0 +1,185 @@
+"""Figure 8 of `qiu` and what is said about the slave's search and both arms together."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from .....planning.search.splice import smoothed
+from .....planning.search.time_map import hull_tracks, replay, shares, time_map
+from .....view.diagrams import flow_chart
+from ....wording import point
+from ...document import PRINTED
+from ...ends import count_rules, counted, meeting_rules, met, outcome
+from ...reading import Links
+from ...two_arms import Slave, both_arms, dual_readings, executed
+
+checks = partial(REGISTRY.checks, page="qiu/master_slave")
+_SHIFTS = (-6, -3, 3, 6)
+_STAGES = (
+    ("master", "search from both ends", plan_bidirectional_compiled),
+    ("master", "join and smooth", smoothed),
+    ("moving hull", "poses from both ends to the middle", shares),
+    ("moving hull", "circles at the joints, their hulls", hull_tracks),
+    ("slave", "search around spheres and hull", plan_bidirectional_compiled),
+    ("slave", "join and smooth", smoothed),
+    ("slave", "time map of the search", time_map),
+    ("slave", "execute both arms by it", replay),
+)
+
+
+@checks(
+    "qiu.fig08",
+    rules=[
+        Is(
+            "master_ignores_slave", "another task of the slave leaves the master's path", value=True
+        ),
+        Is("slave_heeds_master", "another task of the master changes the slave's path", value=True),
+        NoOriginal("drawing", "the flow chart"),
+    ],
+)
+def order_of_work(assumed: Assumed) -> Result:
+    """The order of work that the code follows, tested by what depends on what."""
+    reading = Slave.nominal()
+    branches = REGISTRY.declared("qiu.slave_branch", "choices").choices
+    other_branch = next(branch for branch in branches if branch != reading.slave_branch)
+    other_radius = REGISTRY.declared("qiu.goal_radius", "range").range[0]
+    plan = reading.dual_plan()
+    slave_changed = replace(reading, slave_branch=other_branch).dual_plan()
+    master_changed = replace(reading, goal_radius=other_radius).dual_plan()
+    rows = [
+        (part, text, f"{code.__module__.split('.')[-1]}.{code.__name__}")
+        for part, text, code in _STAGES
+    ]
+    return Result(
+        obtained={
+            "master_ignores_slave": np.array_equal(plan.master_path, slave_changed.master_path),
+            "slave_heeds_master": not np.array_equal(plan.slave_path, master_changed.slave_path),
+            "stages": [f"{part}: {text}" for part, text, _ in rows],
+        },
+        table=pd.DataFrame(rows, columns=["part", "step", "code"]),
+        caption=(
+            f"Order of work in {len(rows)} stages with the function behind each: the master among "
+            "the spheres, its hull at every pose, the slave around it, both executed by one time "
+            "map. The master's path depends on nothing of the slave; the slave's path changes with "
+            "the master's. The chart of the document is lost."
+        ),
+        alt="Flow chart in three columns: plan the master, build its moving hull, plan the "
+        "slave and execute both arms.",
+        figure=lambda: flow_chart(rows),
+    )
+
+
+def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
+    """How the slave's search came out, at face value and in the reconstruction."""
+    plans = dual_readings(assumed).values()
+    return [outcome(plan.slave, PRINTED.slave_meeting) for plan in plans]
+
+
+@checks("qiu.claim_slave_counts", rules=count_rules("the slave's halves meet"))
+def counts(assumed: Assumed) -> Result:
+    """Searches of the slave's halves while the hull of the master moves."""
+    face, other = _outcomes(assumed)
+    printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
+    return Result(
+        obtained=counted(face, other),
+        caption=(
+            f"The slave's halves need {face['searches']} searches each at face value "
+            f"({face['reason']}) and {other['searches']} in the reconstruction "
+            f"({other['reason']}); {printed} are printed."
+        ),
+    )
+
+
+@checks("qiu.claim_slave_meet", rules=meeting_rules("the slave's halves meet"))
+def meeting(assumed: Assumed) -> Result:
+    """Where the slave's halves end, against print."""
+    face, other = _outcomes(assumed)
+    made = met(face, other, PRINTED.slave_meeting)
+    return Result(
+        obtained=made,
+        caption=(
+            f"The slave's halves end at ({point(np.array(face['ends'][0]), 3)}) m, "
+            f"{1e3 * max(face['distance_to_print']):.0f} mm from print, and in the reconstruction "
+            f"{1e3 * max(other['distance_to_print']):.0f} mm from print. Gap of the tips "
+            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * made['printed_gap_tip']:.1f} mm."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_master_timeline",
+    rules=[
+        Is("middle_held", "the middle pose is held in the last searches", value=True),
+        Bounded("held_share", "searches with the middle pose, of all", high="last_phase"),
+        Bounded("late_step_ratio", "mean step in that phase over the one before", high="smaller"),
+    ],
+)
+def schedule(assumed: Assumed) -> Result:
+    """The schedule of master poses over the searches of the slave, and the steps it makes."""
+    plan = Slave.of(assumed).dual_plan()
+    searches, spread = plan.slave.searches, plan.spread
+    held = max(searches - spread, 0)
+    share = time_map(plan.slave, spread)
+    steps = np.mean(
+        [np.linalg.norm(np.diff(half, axis=0), axis=1) for half in plan.slave.record.paths], axis=0
+    )
+    ratio = float(steps[spread:].mean() / steps[:spread].mean()) if held else None
+    return Result(
+        obtained={
+            "middle_held": held > 0,
+            "held_share": held / searches,
+            "late_step_ratio": ratio,
+            "held_searches": held,
+            "wait_samples": len(both_arms(plan)[0]) - len(share),
+        },
+        table=pd.DataFrame({"sample": range(len(share)), "share_of_master_path": share}),
+        caption=(
+            f"The master's poses are spread over {min(spread, searches)} searches from both ends "
+            f"and its middle pose is held for the remaining {held} of {searches}"
+            + (f", in which the step is {ratio:.2f} of the one before. " if held else ". ")
+            + f"The map from the slave's {len(share)} samples to the master's path "
+            "is an output of the plan."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_no_collision",
+    rules=[
+        Is("joined", "both arms have a path", value=True),
+        Bounded("arms", "smallest distance of the links of both arms [m]", low=0.0),
+        Bounded("obstacles", "smallest distance of links and spheres [m]", low=0.0),
+    ],
+)
+def no_collision(assumed: Assumed) -> Result:
+    """Contact of whole links while both arms execute their paths, in step and out of step."""
+    radii, plan = Links.of(assumed).radii, Slave.of(assumed).dual_plan()
+    found = executed(plan, radii=radii)
+    shifted = {k: executed(plan, shift=k, radii=radii).clearance["arms"] for k in _SHIFTS}
+    uniform = executed(plan, "uniform", radii=radii).clearance["arms"]
+    return Result(
+        obtained={
+            "joined": plan.master.reached and plan.slave.reached,
+            "arms": found.clearance["arms"],
+            "obstacles": found.clearance["obstacles"],
+            "clearance": {**found.clearance, "beyond_limits": found.beyond_limits},
+            "out_of_step": {str(k): v for k, v in shifted.items()},
+            "uniform_speed": uniform,
+            "control_points": plan.slave.control_clearance,
+        },
+        caption=(
+            f"The planner sees {1e3 * plan.slave.control_clearance:.0f} mm at its control points, "
+            f"while the links of the arms come to {1e3 * found.clearance['arms']:.0f} mm of each "
+            f"other and to {1e3 * found.clearance['obstacles']:.0f} mm of the spheres (below zero "
+            f"they overlap). Played up to {_SHIFTS[-1]} samples out of step the arms keep "
+            f"{1e3 * min(shifted.values()):.0f} mm at worst, at uniform "
+            f"speed {1e3 * uniform:.0f} mm."
+        ),
+    )

@@ -1,0 +1,297 @@
+"""Figures 6, 10 and 11 of `qiu` and what is said about the traditional search."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
+from ....planning.checks.path_measures import WINDOW, chatter, until_rest
+from ....planning.search.failure import classify
+from ....planning.search.search_plan import SearchPlan
+from ....view.scene3d import Scene3D
+from ....view.search_curves import coordinate_figure
+from ....view.style import BLACK, GREEN
+from ....view.tip_paths import tip_path_figure
+from ...wording import point
+from ..document import FACE_VALUE, PRINTED, RECONSTRUCTION, full_step, spheres
+from ..drawings import among_spheres, played
+from ..reading import Traditional, VariableGain, balance_ratio
+from ..studies.improvements import IMPROVEMENTS, nearest
+from ..witnesses import witnesses
+
+checks = partial(REGISTRY.checks, page="qiu/one_sided")
+
+
+def _both(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
+    """The traditional search at face value and in the reconstruction."""
+    reading = Traditional.of(assumed)
+    return reading.plan(), reading.reconstructed().plan()
+
+
+def _outcome(plan: SearchPlan) -> dict[str, Any]:
+    failure = classify(plan)
+    rest = plan.path[-WINDOW:].mean(axis=0)
+    return {
+        "reason": str(plan.reason),
+        "failure": None if failure is None else str(failure),
+        "searches": plan.searches,
+        "searches_until_rest": until_rest(plan.path, plan.problem.settings.step.length),
+        "tcp": plan.ends[0].tolist(),
+        "joint_distance_to_goal": float(np.linalg.norm(rest - plan.problem.goal)),
+        "distance_to_printed_trap": float(np.linalg.norm(plan.tcp - PRINTED.trap, axis=1).min()),
+    }
+
+
+def _chatter(plan: SearchPlan, measure: str) -> float:
+    """Chatter of the height of the flange at the end of a run."""
+    return chatter(plan.tcp[:, 2], measure, full_step())
+
+
+@checks(
+    "qiu.claim_trad_stuck",
+    rules=[
+        Is("trapped", "the one-way search is trapped", value=True),
+        Rounds(
+            "searches",
+            "searches until it rests",
+            to="searches",
+            tolerance=5,
+            reason="printed as approximate: half of a decade",
+        ),
+        Rounds(
+            "tcp",
+            "flange where it rests [m]",
+            to="tcp",
+            tolerance=0.033,
+            reason="printed as a neighbourhood: the way of the flange of the "
+            "straight arm in one printed step",
+        ),
+    ],
+)
+def trapped(assumed: Assumed) -> Result:
+    """Where and why the one-way search ends, at face value and in the reconstruction."""
+    face, other = map(_outcome, _both(assumed))
+    return Result(
+        obtained={
+            "trapped": face["reason"] == "trapped",
+            "searches": face["searches_until_rest"],
+            "tcp": face["tcp"],
+            "face_value": face,
+            "reconstruction": other,
+            "ratio_of_reconstruction": balance_ratio(),
+        },
+        caption=(
+            f"With the printed gains the one-way search rests after {face['searches_until_rest']} "
+            f"searches at ({point(np.array(face['tcp']), 3)}) m, "
+            f"{face['joint_distance_to_goal']:.2f} rad from its goal ({face['failure']}): "
+            "obstacles push the arm off a goal inside their range. It never comes nearer than "
+            f"{1e3 * face['distance_to_printed_trap']:.0f} mm to the printed trap. With the gain "
+            f"ratio {balance_ratio():.1e}, at which repulsion at the printed trap is as large as "
+            f"the attraction, the search ends as: {other['reason']}, after "
+            f"{other['searches']} searches."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_trad_oscillates",
+    rules=[
+        Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters"),
+        Bounded("beyond_range", "distance to an obstacle there beyond its range [m]", high=0.0),
+    ],
+)
+def oscillates(assumed: Assumed) -> Result:
+    """Chatter of the height in the last searches of the one-way run."""
+    face, other = _both(assumed)
+    measure = assumed["oscillation_measure"]
+    level, spread = _chatter(face, measure), float(np.ptp(face.tcp[-WINDOW:, 2]))
+    return Result(
+        obtained={
+            "chatter": level,
+            "beyond_range": float(face.record.clearances[0][-WINDOW:].min()) - PRINTED.influence,
+            "peak_to_peak": spread,
+            "flips": face.record.flips[0],
+            "reconstruction": _chatter(other, measure),
+        },
+        caption=(
+            f"In its last {WINDOW} searches the height of the one-way run moves up and down by "
+            f"{1e3 * spread:.0f} mm, {level:.0%} of a full zigzag by the measure {measure}, and "
+            f"the resultant has flipped {face.record.flips[0]} times: a step of fixed length "
+            "cannot come to rest at an equilibrium."
+        ),
+    )
+
+
+@checks(
+    "qiu.claim_lambda_effect",
+    rules=[
+        Generally(
+            "calmed",
+            "random tasks whose chatter the variable gain clearly reduces, of those that chatter",
+            at_least="most",
+            margin="margin",
+        )
+    ],
+)
+def lambda_effect(assumed: Assumed) -> Result:
+    """Chatter with constant and with variable gain, on the random tasks that chatter."""
+    limits = REGISTRY.look("qiu.claim_lambda_effect", "thresholds").thresholds
+    measure, ratio = assumed["oscillation_measure"], nearest(assumed["gain_ratio"])
+    table = IMPROVEMENTS.load()
+    table = table[table["gain_ratio"] == ratio]
+    loud = table[table[f"{measure}_constant"] >= limits["chatters"].value]
+    share = loud[f"{measure}_variable"] / loud[f"{measure}_constant"]
+    calmed = share <= limits["clearly"].value
+    middle = float(share.median()) if len(loud) else None
+    obtained = {
+        "calmed": {"count": int(calmed.sum()), "of": len(loud)},
+        "median_ratio": middle,
+        "tasks": len(table),
+        "ratio": ratio,
+        "measure": measure,
+    }
+    return Result(
+        obtained=obtained,
+        caption=(
+            f"At eta_0/zeta = {ratio:g} the one-way search chatters in {len(loud)} of {len(table)} "
+            f"random tasks by the measure {measure}; the variable gain brings the chatter to "
+            f"{limits['clearly'].value:.0%} or less of what it was in {int(calmed.sum())} of them"
+            + (f", in the median to {middle:.0%}." if middle is not None else ".")
+        ),
+        witnesses=witnesses(
+            "qiu.claim_lambda_effect",
+            obtained,
+            loud,
+            calmed,
+            ("task", "gain_rule", "kappa", f"{measure}_constant", f"{measure}_variable"),
+        ),
+    )
+
+
+@checks(
+    "qiu.fig06",
+    rules=[
+        Bounded(
+            "chatter", "chatter with constant gain, as a share of a full zigzag", low="chatters"
+        ),
+        NoOriginal("curves", "the curves"),
+    ],
+)
+def height_with_both_gains(assumed: Assumed) -> Result:
+    """Height of the flange over the searches, constant and variable gain."""
+    kinds = {"constant": Traditional, "variable": VariableGain}
+    plans = {name: kind.of(assumed).plan() for name, kind in kinds.items()}
+    measure = assumed["oscillation_measure"]
+    levels = {name: _chatter(plan, measure) for name, plan in plans.items()}
+    heights = {f"z_{name}_m": pd.Series(plan.tcp[:, 2]) for name, plan in plans.items()}
+    words = (
+        f"{name} gain: {plan.searches} searches, ends as {plan.reason}, {plan.record.flips[0]} "
+        f"flips, chatter {levels[name]:.0%} of a full zigzag, smallest distance of a control point "
+        f"{plan.control_clearance:.3f} m"
+        for name, plan in plans.items()
+    )
+    return Result(
+        obtained={
+            "chatter": levels["constant"],
+            "chatter_variable": levels["variable"],
+            "flips": [plan.record.flips[0] for plan in plans.values()],
+            "searches": [plan.searches for plan in plans.values()],
+            "clearance": [plan.control_clearance for plan in plans.values()],
+        },
+        table=pd.DataFrame(heights).rename_axis("search").reset_index(),
+        caption=(
+            "Height of the flange in the printed scene. " + "; ".join(words).capitalize() + ". The "
+            "curves of the document are not in the text edition."
+        ),
+        alt="Coordinates of the flange over the searches for constant and variable gain.",
+        figure=lambda: coordinate_figure(
+            {f"{name} gain": plan.tcp for name, plan in plans.items()}
+        ),
+    )
+
+
+@checks(
+    "qiu.fig10",
+    rules=[
+        Bounded("short_of_goal", "joint distance to the goal beyond the tolerance [rad]", low=0.0),
+        NoOriginal("path", "the path"),
+    ],
+)
+def path_among_spheres(assumed: Assumed) -> Result:
+    """Flange path and postures of the one-way search."""
+    face, other = _both(assumed)
+    trap = PRINTED.trap
+    panels = [
+        among_spheres(
+            title, plan, {"flange": plan.tcp}, {"goal": _goal_tip(plan), "printed trap": trap}
+        )
+        for title, plan in ((FACE_VALUE, face), (RECONSTRUCTION, other))
+    ]
+    away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2)
+    clearance = away.min() - PRINTED.radius
+    return Result(
+        obtained={
+            "short_of_goal": face.gap - assumed["joint_tolerance"],
+            "end": face.ends[0].tolist(),
+            "flange_clearance": float(clearance),
+            "reconstruction_reached": other.reached,
+        },
+        table=face.to_frame(),
+        caption=(
+            f"With the printed gains the flange stays {clearance:.3f} m or more away from the "
+            f"spheres and ends at ({point(face.ends[0], 3)}) m, "
+            f"{1e3 * np.linalg.norm(face.ends[0] - trap):.0f} mm from the printed trap. In the "
+            f"reconstruction the one-way search ends as: {other.reason}."
+        ),
+        alt="Two panels with two spheres, postures of the arm and the path of its flange; the "
+        "goal and the printed trap are marked.",
+        figure=lambda: tip_path_figure(panels, list(spheres().values()), azim=35),
+        scene=lambda: _scene(face),
+    )
+
+
+def _goal_tip(plan: SearchPlan) -> np.ndarray:
+    arm = plan.problem.placed
+    return arm.placement.act(arm.arm.positions(plan.problem.goal))
+
+
+def _scene(plan: SearchPlan) -> Scene3D:
+    """The one-way search, played."""
+    made = played("The one-way search and its goal (black).", plan)
+    made.add_path("flange", plan.tcp, GREEN)
+    made.add_sphere("goal", _goal_tip(plan), 0.012, BLACK)
+    return made
+
+
+@checks(
+    "qiu.fig11",
+    rules=[
+        Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters"),
+        NoOriginal("curves", "the curves"),
+    ],
+)
+def coordinates(assumed: Assumed) -> Result:
+    """x, y and z of the flange over the searches of the one-way run."""
+    face, other = _both(assumed)
+    return Result(
+        obtained={
+            "chatter": _chatter(face, assumed["oscillation_measure"]),
+            "flips": face.record.flips[0],
+            "searches": face.searches,
+        },
+        table=face.to_frame(),
+        caption=(
+            f"Coordinates of the flange over {face.searches} searches at face value "
+            f"({face.record.flips[0]} flips of the resultant) and over {other.searches} in the "
+            "reconstruction; dashed: the printed trap. The printed curves are lost."
+        ),
+        alt="Coordinates of the flange over the searches for two readings, with the "
+        "printed trap as dashed levels.",
+        figure=lambda: coordinate_figure(
+            {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp}, {"printed trap": PRINTED.trap}
+        ),
+    )

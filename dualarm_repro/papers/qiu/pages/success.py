@@ -1,0 +1,309 @@
+"""Table 2 of `qiu`, the claims on success, smoothness and minima, and tables of its studies."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ....ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result, Rounds
+from ....ledger.shares import Share
+from ....planning.checks.path_measures import bending, until_rest
+from ....planning.search.failure import Failure
+from ....planning.search.search_plan import SearchPlan
+from ....planning.trials.yardstick import YARDSTICK
+from ....view.success_curves import bar_figure, rate_figure
+from ..document import PRINTED, SEED, full_step, placed
+from ..reading import JUDGED_BY, VARIANTS, GoalBox, Improved, Splice, Traditional
+from ..studies.ablation import ABLATION
+from ..studies.dual_pairs import PAIR_POINTS, PAIR_RATIOS, PAIRS
+from ..studies.improvements import nearest
+from ..studies.random_scenes import SCENE_RATIOS, SCENES
+from ..witnesses import witnesses
+
+checks = partial(REGISTRY.checks, page="qiu/success")
+#: Columns of the studies of both methods that the document compares.
+COMPARED = {"traditional": "traditional", "improved": "VAB"}
+_BRANCH, _POINTS = "front_shallow", "elbow_wrist_flange"
+_SPACES = ("joints", "tip")
+_SHORTEST = 5
+
+
+def better_cells(success_rule: str) -> tuple[pd.DataFrame, pd.Series]:
+    """Cells of the ablation, and in which of them the improved method has the higher rate."""
+    table, judged = ABLATION.load(), JUDGED_BY[success_rule]
+    return table, table[f"VAB_{judged}"] > table[f"traditional_{judged}"]
+
+
+_HIGHER = Generally(
+    "better",
+    "choices of gains, posture and control points with a higher rate of the improved method",
+    at_least="most",
+    margin="split",
+)
+_SHOWN = ("gain_ratio", "branch", "control_points", "goal_seed")
+
+
+@checks(
+    "qiu.tab02",
+    rules=[
+        Rounds("goals", "goals that both methods are tried on", to="goals"),
+        _HIGHER,
+        NoOriginal("rates", "the body of the table"),
+    ],
+)
+def table_2(assumed: Assumed) -> Result:
+    """Both methods on 15 goals with four seeds, by the planner and in truth, over the gains."""
+    rule = assumed["success_rule"]
+    table, better = better_cells(rule)
+    rows = []
+    for (points, ratio), cells in table[table.branch == _BRANCH].groupby(
+        ["control_points", "gain_ratio"]
+    ):
+        for method, variant in COMPARED.items():
+            row = {"control points": points, "eta_0/zeta": ratio, "method": method}
+            for judged in ("planner", "truth"):
+                kept, tried = int(cells[f"{variant}_{judged}"].sum()), int(cells.goals.sum())
+                row[judged] = f"{kept}/{tried}"
+                _, row[f"{judged}_low"], row[f"{judged}_high"] = Share.of(kept, tried)
+            rows.append(row)
+    shown = pd.DataFrame(rows)
+    face = shown[(shown["control points"] == _POINTS) & (shown["eta_0/zeta"] == _printed_ratio())]
+    face = {row["method"]: row for row in face.to_dict("records")}
+    obtained = {
+        "goals": int(table.goals.min()),
+        "better": {"count": int(better.sum()), "of": len(table)},
+        "seeds": sorted(int(seed) for seed in table.goal_seed.unique()),
+        "judged_by": JUDGED_BY[rule],
+        "face_value": face,
+    }
+    return Result(
+        obtained=obtained,
+        table=shown,
+        caption=(
+            f"{table.goals.min()} goals with each of {table.goal_seed.nunique()} "
+            "seeds. With the printed gains "
+            + "; ".join(
+                f"the {method} search arrives at {row['planner']} by the "
+                f"planner, {row['truth']} in truth"
+                for method, row in face.items()
+            )
+            + f". Judged by the {JUDGED_BY[rule]}, the improved search does better in "
+            f"{better.mean():.0%} of {len(table)} choices of gains, posture, control points and "
+            "goals. The printed numbers are lost."
+        ),
+        alt="Success rates of the search variants over the ratio of repulsive to attractive gain, "
+        "by the planner and in truth, with bands of uncertainty and the printed ratio marked.",
+        figure=_sweep_figure,
+        witnesses=_cell_witnesses("qiu.tab02", obtained, table, better, rule),
+    )
+
+
+def _cell_witnesses(
+    item_id: str, obtained: dict[str, Any], table: pd.DataFrame, better: pd.Series, rule: str
+) -> list[dict[str, Any]]:
+    judged = JUDGED_BY[rule]
+    return witnesses(
+        item_id, obtained, table, better, (*_SHOWN, f"traditional_{judged}", f"VAB_{judged}")
+    )
+
+
+def _printed_ratio() -> float:
+    return PRINTED.eta0 / PRINTED.zeta
+
+
+def _sweep_figure() -> Any:
+    table = ABLATION.load()
+    table = table[(table.branch == _BRANCH) & (table.control_points == _POINTS)]
+    ratios = sorted(table.gain_ratio.unique())
+    panels: dict[str, dict[str, list[Share]]] = {}
+    for judged, title in (("planner", "by the planner"), ("truth", "in truth")):
+        panels[title] = {}
+        for variant in ("traditional", "V", "A", "B", "VAB"):
+            cells = table.groupby("gain_ratio")[[f"{variant}_{judged}", "goals"]].sum()
+            panels[title][variant] = [Share.of(*cells.loc[ratio]) for ratio in ratios]
+    return rate_figure(ratios, panels, "eta_0 / zeta", (_printed_ratio(), "printed"))
+
+
+@checks(
+    "qiu.claim_success_rate",
+    rules=[
+        _HIGHER,
+        Generally(
+            "smoother_joints",
+            "goals with the smoother path of the improved method, in joint space",
+            at_least="half",
+            margin="margin",
+        ),
+        Generally(
+            "smoother_tip",
+            "goals with the smoother path of the improved method, in task space",
+            at_least="half",
+            margin="margin",
+        ),
+        Bounded(
+            "singular_value",
+            "smallest singular value of the position Jacobian on the way [m/rad]",
+            low="regular",
+        ),
+    ],
+)
+def success_and_smoothness(assumed: Assumed) -> Result:
+    """Success over the ablation; smoothness of both methods on one set of goals, each path cut
+    where it rests and smoothed by the same spline; distance of the position from singularity."""
+    rule = assumed["success_rule"]
+    table, better = better_cells(rule)
+    readings, splice = [Traditional.of(assumed), Improved.of(assumed)], Splice.of(assumed)
+    goals, arm = GoalBox.of(assumed).draw(SEED), readings[1].arm().arm
+    units = {"joints": PRINTED.alpha0, "tip": full_step()}
+    rows, least = [], np.inf
+    for q in goals.q:
+        plans = [reading.plan_to(q) for reading in readings]
+        paths = [_until_rest(plan) for plan in plans]
+        if not plans[1].reached or min(map(len, paths)) < _SHORTEST:
+            continue
+        paths = [splice.smooth(path) for path in paths]
+        sigma = np.linalg.svd(arm.jacobian(paths[1])[:, :3], compute_uv=False)[:, -1]
+        least = min(least, float(sigma.min()))
+        rows.append(
+            {
+                f"{method}_{space}": bending(points, units[space])
+                for method, path in zip(COMPARED, paths, strict=True)
+                for space, points in (("joints", path), ("tip", arm.positions(path)))
+            }
+        )
+    columns = [f"{method}_{space}" for method in COMPARED for space in _SPACES]
+    shown = pd.DataFrame(rows, columns=columns)
+    smoother = {s: shown[f"improved_{s}"] < shown[f"traditional_{s}"] for s in _SPACES}
+    ratios = {
+        s: float((shown[f"improved_{s}"] / shown[f"traditional_{s}"]).median()) for s in _SPACES
+    }
+    jacobian = placed("master").arm.jacobian(PRINTED.start)
+    at_start = float(np.linalg.svd(jacobian, compute_uv=False)[-1])
+    obtained = {
+        "better": {"count": int(better.sum()), "of": len(table)},
+        **{f"smoother_{s}": {"count": int(smoother[s].sum()), "of": len(shown)} for s in _SPACES},
+        "singular_value": least if len(shown) else None,
+        "bending_ratio": ratios,
+        "judged_by": JUDGED_BY[rule],
+        "singular_value_at_the_printed_start": at_start,
+    }
+    return Result(
+        obtained=obtained,
+        table=shown,
+        caption=(
+            f"Judged by the {JUDGED_BY[rule]}, the improved method has the higher rate in "
+            f"{better.mean():.0%} of {len(table)} cells of the ablation. On {len(shown)} goals, "
+            "both paths cut where they rest and smoothed alike, its path bends less per length in "
+            f"{int(smoother['joints'].sum())} of them in joint space and in "
+            f"{int(smoother['tip'].sum())} in task space; the median ratio of the mean squared "
+            f"curvature is {ratios['joints']:.2g} and {ratios['tip']:.2g}. The smallest singular "
+            f"value of the position Jacobian on the way is {least:.3f} m/rad. At the printed "
+            f"start, all joints zero, the smallest of the whole Jacobian is {at_start:.0e}, since "
+            "axes 4 and 6 are aligned there."
+        ),
+        witnesses=_cell_witnesses("qiu.claim_success_rate", obtained, table, better, rule),
+    )
+
+
+def _until_rest(plan: SearchPlan) -> np.ndarray:
+    """The path of a search, a failed one only as far as where it rests."""
+    if plan.reached:
+        return plan.path
+    return plan.path[: until_rest(plan.path, PRINTED.alpha0) + 1]
+
+
+@checks(
+    "qiu.claim_local_min",
+    rules=[
+        Generally(
+            "rescued",
+            "midway minima of the one-way search that the search from both ends solves",
+            at_least="noticeable",
+            margin="margin",
+        )
+    ],
+)
+def local_minima(assumed: Assumed) -> Result:
+    """Failures with and without renewed goals in random scenes, by where the run ended."""
+    judged = JUDGED_BY[assumed["success_rule"]]
+    ratio = nearest(assumed["gain_ratio"], SCENE_RATIOS)
+    table = SCENES.load()
+    failure = table[f"traditional_{ratio:g}_failure"]
+    kinds = {kind: table[failure == str(kind)] for kind in Failure}
+    solved = {kind: rows[f"B_{ratio:g}_{judged}"].astype(bool) for kind, rows in kinds.items()}
+    minima, rescued = kinds[Failure.MIDWAY_MINIMUM], solved[Failure.MIDWAY_MINIMUM]
+    obtained = {
+        "rescued": {"count": int(rescued.sum()), "of": len(minima)},
+        "scenes": len(table),
+        "ratio": ratio,
+        "judged_by": judged,
+        "failures": {str(kind): len(rows) for kind, rows in kinds.items()},
+        "solved_from_both_ends": {str(k): int(found.sum()) for k, found in solved.items()},
+    }
+    return Result(
+        obtained=obtained,
+        caption=(
+            f"In {len(table)} random scenes at eta_0/zeta = {ratio:g} the one-way search fails "
+            + ", ".join(f"{len(rows)} times as {kind}" for kind, rows in kinds.items())
+            + f"; judged by the {judged}, the search from both ends solves "
+            + ", ".join(f"{int(found.sum())} of the {kind}" for kind, found in solved.items())
+            + "."
+        ),
+        witnesses=witnesses("qiu.claim_local_min", obtained, minima, rescued, ("scene", "spheres")),
+    )
+
+
+def scenes_table() -> pd.DataFrame:
+    """Rates of every variant in the random scenes [%], with 95 % intervals of the true ones, and
+    how the one-sided variants failed."""
+    table = SCENES.load()
+    rows = [
+        {"method": name, "eta_0/zeta": ratio} | _rates(table, f"{name}_{ratio:g}")
+        for ratio in SCENE_RATIOS
+        for name in (variant.name for variant in VARIANTS)
+    ]
+    return pd.DataFrame([*rows, {"method": "RRT-Connect"} | _rates(table, YARDSTICK)])
+
+
+def scenes_figure() -> Any:
+    """True rates of every variant in the random scenes, by the ratio of the gains."""
+    table = SCENES.load()
+    groups = {
+        f"eta_0/zeta = {ratio:g}": {
+            variant.name: float(table[f"{variant.name}_{ratio:g}_truth"].mean())
+            for variant in VARIANTS
+        }
+        for ratio in SCENE_RATIOS
+    }
+    yardstick = 100.0 * table[f"{YARDSTICK}_truth"].mean()
+    return bar_figure(groups, "true success [%]", (yardstick, "RRT-Connect"))
+
+
+def pairs_table() -> pd.DataFrame:
+    """Rates of master and slave on random pairs of goals [%], by control points and gain ratio."""
+    table = PAIRS.load()
+    rows = [
+        {"control points": points, "eta_0/zeta": ratio} | _rates(table, f"{points}_{ratio:g}")
+        for points in PAIR_POINTS
+        for ratio in PAIR_RATIOS
+    ]
+    return pd.DataFrame([*rows, {"control points": "RRT-Connect"} | _rates(table, YARDSTICK)])
+
+
+def _rates(table: pd.DataFrame, key: str) -> dict[str, Any]:
+    planner, truth = (
+        Share.of(int(table[f"{key}_{judged}"].sum()), len(table)) for judged in ("planner", "truth")
+    )
+    row = {
+        "planner %": round(100 * planner.value, 1),
+        "true %": round(100 * truth.value, 1),
+        "true low %": round(100 * truth.low, 1),
+        "true high %": round(100 * truth.high, 1),
+    }
+    if f"{key}_failure" in table:
+        counts = table[f"{key}_failure"].value_counts()
+        row |= {kind: int(counts.get(kind, 0)) for kind in ("displaced-goal", "midway-minimum")}
+    return row | {"of": len(table)}

@@ -1,0 +1,68 @@
+"""Random tasks in which the straight joint line between start and goal is blocked."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...scene import PlacedArm, Scene, Sphere, distances
+from ..checks.contact_check import contact_check
+
+_TRIES = 40
+_RADII, _SHELL, _LOWEST = (0.06, 0.14), (0.25, 0.65), 0.15
+
+
+def blocked_task(
+    arm: PlacedArm,
+    shoulder: ArrayLike,
+    count: int,
+    margin: float,
+    rng: np.random.Generator,
+    exempt: Collection[tuple[str, str]] = (),
+) -> tuple[Scene, np.ndarray, np.ndarray]:
+    """A scene of one arm, ``count`` spheres and a floor at z = 0, a start and a goal (nq,) [rad].
+
+    Both ends are clear by ``margin`` [m]. Radii of the spheres are 0.06 to 0.14 m, their centres
+    0.25 to 0.65 m from the ``shoulder`` (3,) and above the floor; joints stay within half a turn.
+    Drawn until a task fits; 40 pairs of ends are tried in one scene.
+
+    Parameters
+    ----------
+    exempt
+        Pairs of bodies that are not watched, see :class:`.Scene`.
+    """
+    low, high = _turns(arm)
+    while True:
+        balls = {}
+        for k in range(count):
+            direction = rng.normal(size=3)
+            away = rng.uniform(*_SHELL) * direction / np.linalg.norm(direction)
+            centre = np.asarray(shoulder) + away
+            balls[f"sphere_{k}"] = Sphere(
+                [*centre[:2], max(centre[2], _LOWEST)], rng.uniform(*_RADII)
+            )
+        scene = Scene([arm], balls, floor=0.0, exempt=exempt)
+        for _ in range(_TRIES):
+            ends = rng.uniform(low, high, (2, arm.arm.nq))
+            if (distances(scene, ends).min(axis=1) > margin).all():
+                if contact_check(scene, ends).smallest < 0.0:
+                    return scene, ends[0], ends[1]
+
+
+def blocked_goal(
+    scene: Scene, start: ArrayLike, margin: float, rng: np.random.Generator
+) -> np.ndarray:
+    """Configuration of all arms of a scene (nq,), clear by ``margin`` [m], to which the straight
+    line from ``start`` is in contact; joints stay within half a turn. Drawn until one fits."""
+    low, high = (np.concatenate(rows) for rows in zip(*map(_turns, scene.arms), strict=True))
+    while True:
+        goal = rng.uniform(low, high)
+        clear = distances(scene, goal).min() > margin
+        if clear and contact_check(scene, np.array([start, goal])).smallest < 0.0:
+            return goal
+
+
+def _turns(arm: PlacedArm) -> tuple[np.ndarray, np.ndarray]:
+    return np.maximum(arm.arm.lower, -np.pi), np.minimum(arm.arm.upper, np.pi)
