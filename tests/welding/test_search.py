@@ -8,7 +8,13 @@ from hypothesis import strategies as st
 from dualarm_repro.errors import InputError, UnknownNameError
 from dualarm_repro.welding import Objective, Placement, Settings, evolve, grid_optimum
 from dualarm_repro.welding import genetic as ga
-from dualarm_repro.welding.grid_search import best_cells, grid_points, pattern_search, refined
+from dualarm_repro.welding.grid_search import (
+    best_cells,
+    grid_points,
+    pattern_search,
+    ranked,
+    refined,
+)
 from dualarm_repro.welding.peers import OPTIMISERS
 
 from .cells import BOX, make_cell
@@ -162,3 +168,48 @@ def test_genetic_algorithm_meets_the_ground_truth():
         assert found.fitness > 0.999 * truth.fitness
         gap = np.abs(found.best) - np.abs(truth.position)
         assert np.linalg.norm(gap) < 0.1
+
+
+def _nearly(values, seed):
+    """The same up to round-off."""
+    return values * (1.0 + 1e-14 * np.random.default_rng(seed).normal(size=values.shape))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_round_off_does_not_choose_between_ties(seed):
+    points = np.array([[0.2, 0.1], [-0.2, 0.3], [-0.2, 0.1], [0.0, 0.0], [0.5, 0.5]])
+    values = _nearly(np.array([2.0, 2.0, 2.0, 3.0, -1.0]), seed)
+    assert ranked(points, values).tolist() == [3, 2, 1, 0, 4]
+    assert best_cells(points, values, 2, 0.1).tolist() == [[0.0, 0.0], [-0.2, 0.1]]
+    assert ranked(points, values + [1e-9, 0, 0, 0, 0]).tolist() == [3, 0, 2, 1, 4]
+    assert ranked(points[:0], values[:0]).tolist() == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_search_of_a_symmetric_hill_ends_at_the_same_of_its_peaks(seed):
+    rng = np.random.default_rng(seed)
+
+    def peaks(points):
+        """Two equal hills, mirror images of each other, joined by a ridge that is flat along z."""
+        sides = np.exp(-4 * ((np.abs(points[:, 0]) - 0.3) ** 2 + points[:, 1] ** 2))
+        return sides * (1.0 + 1e-14 * rng.normal(size=len(points)))
+
+    found = grid_optimum(peaks, BOX, 0.3)
+    assert found.position == pytest.approx([-0.3, 0.0, BOX[2, 0]], abs=1e-4)
+    steps = pattern_search(peaks, np.array([0.0, 0.0, 0.5]), BOX, 0.1, 1e-3)
+    assert steps.position == pytest.approx([-0.3, 0.0, 0.5], abs=2e-3)
+
+
+def test_known_values_of_the_grid_are_not_asked_for_again():
+    asked = []
+
+    def fitness(points):
+        asked.append(len(points))
+        return hill(points)
+
+    plain = grid_optimum(fitness, BOX, 0.2)
+    assert plain.evaluations == sum(asked)
+    points = grid_points(BOX, 0.2)
+    known = grid_optimum(fitness, BOX, 0.2, values=hill(points))
+    assert (known.position == plain.position).all()
+    assert known.evaluations == plain.evaluations - len(points)
