@@ -12,7 +12,7 @@ from .optimum import Box
 from .scenario import SEED, Genetic, Job, Measure
 
 #: Averaging length of the second stop rule, which the text leaves open.
-_WINDOW = genetic.Settings().stall_generations
+_WINDOW = genetic.GeneticSettings().stall_generations
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Trace:
         Share of the parents that were infeasible, by generation.
     """
 
-    settings: genetic.Settings
+    settings: genetic.GeneticSettings
     order: list[str] = field(default_factory=list)
     evaluated: list[int] = field(default_factory=list)
     tested: int = 0

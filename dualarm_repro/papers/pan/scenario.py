@@ -17,10 +17,10 @@ from ...ledger import REGISTRY
 from ...tracking import memo
 from ...welding import (
     Cell,
+    GeneticSettings,
     Objective,
     Placement,
     Seam,
-    Settings,
     Tools,
     Torch,
     Workpiece,
@@ -154,9 +154,9 @@ class Genetic(FromAssumptions):
     ga_stall: float
     infeasible_fitness: str
 
-    def settings(self) -> Settings:
+    def settings(self) -> GeneticSettings:
         """The same in the words of the method."""
-        return Settings(
+        return GeneticSettings(
             population=round(self.ga_population),
             generations=round(self.ga_generations),
             crossover=self.ga_crossover,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...ledger import REGISTRY, Study
-from ...welding import Settings, evolve, grid_optimum
+from ...welding import evolve, grid_optimum
 from ...welding.genetic import Generation
 from ...welding.peers import OPTIMISERS as PEERS
 from .nominal import Declared, alternatives, nominal_values
@@ -65,7 +65,7 @@ def _evolve(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
     """One genetic run; its history is held at the last generation after it has ended."""
     values = nominal_values()
     placement = Job.of(values).placement(Measure.of(values).reading())
-    declared: Settings = Genetic.of(values).settings()
+    declared = Genetic.of(values).settings()
     chosen = replace(declared, **VARIANTS[settings["variant"]])
     found = evolve(placement, np.array(values["search_box"]), chosen, rng)
     held = [*found.history, *[found.history[-1]] * (chosen.generations + 1 - len(found.history))]
