@@ -35,10 +35,11 @@ class Survey(NamedTuple):
 
 def survey(placement: Placement, box: np.ndarray, spacing: float) -> Survey:
     """Fitness and constraints on the :func:`.grid_search.grid_points` of the region."""
-    points = grid_points(box, spacing)
-    jobs = [placement.jobs(block) for block in blocks(points)]
-    fitness = np.concatenate([placement.score(some) for some in jobs])
-    return Survey(points, fitness, np.concatenate([some.status for some in jobs]))
+    points, rated = grid_points(box, spacing), []
+    for block in blocks(points):
+        jobs = placement.jobs(block)
+        rated.append((placement.score(jobs), jobs.status))
+    return Survey(points, *map(np.concatenate, zip(*rated, strict=True)))
 
 
 def nearer_image(found: Optimum, fitness: Fitness, target: np.ndarray) -> Optimum:

@@ -58,7 +58,7 @@ def flange_twist(arm: Arm, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
 
 
 def periodic_derivative(values: np.ndarray) -> np.ndarray:
-    """d/dtheta of samples (N, ...) over one full turn along the first axis, by Fourier transform."""
+    """d/dtheta of samples (N, ...) over one turn along the first axis, by Fourier transform."""
     count = len(values)
     order = np.fft.rfftfreq(count, 1.0 / count)
     if count % 2 == 0:
