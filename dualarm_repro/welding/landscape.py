@@ -14,8 +14,8 @@ from .placement import Placement, blocks
 
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 _SAME = 1e-6  # relative difference of the fitness of two mirror images
-#: Scores of extremes that differ by less, relative, are equal.
-_EQUAL = 1e-9
+#: Of an extreme and its mirror image the one on this side is meant.
+_SIDE = np.array([1.0, 0.0, 0.0])
 #: Rule to a score (P,) from manipulabilities (P, 3, N) and system measure (P, N).
 EXTREMES = {
     "lowest_welder": lambda w, system: 1.0 / w[:, WELDER].max(axis=1),
@@ -67,7 +67,7 @@ def extreme_position(
 ) -> Optimum:
     """Feasible position that a rule calls poor, and its score.
 
-    Of mirror images, which differ by round-off alone, that of largest x, y, z.
+    Of mirror images that are as good, the one with x > 0.
 
     Parameters
     ----------
@@ -102,12 +102,5 @@ def extreme_position(
     points = grid_points(box, spacing)
     values = np.concatenate([score(block) for block in blocks(points)])
     cells = best_cells(points, values, starts, spacing)
-    ends = [refined(score, cell[np.newaxis], box, 0.5 * spacing, tolerance) for cell in cells]
-    return _last_of_equals(ends) if ends else refined(score, cells, box, spacing, tolerance)
-
-
-def _last_of_equals(ends: list[Optimum]) -> Optimum:
-    top = max(end.fitness for end in ends)
-    equals = [end for end in ends if end.fitness >= (1.0 - _EQUAL) * top]
-    best = max(equals, key=lambda end: tuple(end.position))
-    return best._replace(evaluations=sum(end.evaluations for end in ends))
+    found = refined(score, cells, box, 0.5 * spacing, tolerance)
+    return nearer_image(found, score, _SIDE)

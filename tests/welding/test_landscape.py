@@ -5,7 +5,7 @@ import pytest
 
 from dualarm_repro.errors import UnknownNameError
 from dualarm_repro.welding import Objective, Optimum, Placement, extreme_position, survey
-from dualarm_repro.welding.landscape import EXTREMES, _last_of_equals, nearer_image
+from dualarm_repro.welding.landscape import EXTREMES, nearer_image
 
 from .cells import BOX, make_cell
 
@@ -40,7 +40,8 @@ def test_extreme_positions_keep_their_rules(placement, rule):
     grid = survey(placement, BOX, 0.3)
     jobs = placement.jobs(grid.points[grid.status == 0])
     scores = EXTREMES[rule](jobs.w, placement.measures(jobs).system)
-    assert found.fitness >= scores.max()
+    assert found.fitness >= scores.max() * (1 - 1e-9)
+    assert found.position[0] >= 0
     at = placement.jobs([found.position])
     assert at.feasible.all()
     assert found.fitness == EXTREMES[rule](at.w, placement.measures(at).system)[0]
@@ -53,14 +54,3 @@ def test_no_extreme_out_of_reach(placement):
     assert np.isnan(found.position).all()
     with pytest.raises(UnknownNameError, match="lowest_welder, lowest_mean_of_welder"):
         extreme_position(placement, BOX, "worst", spacing=0.1, starts=2)
-
-
-def test_round_off_does_not_choose_between_mirror_images():
-    left, right = (np.array([x, 0.1, 0.2]) for x in (-0.2, 0.2))
-    for nearly in (1.0 - 1e-14, 1.0, 1.0 + 1e-14):
-        ends = [Optimum(left, 1.0, 3), Optimum(right, nearly, 4), Optimum(left, 0.9, 5)]
-        for order in (ends, ends[::-1]):
-            best = _last_of_equals(order)
-            assert best.position.tolist() == right.tolist()
-            assert best.evaluations == 12
-    assert _last_of_equals([Optimum(left, 1.0, 1), Optimum(right, 0.999, 1)]).position[0] < 0
