@@ -139,9 +139,9 @@ def assemble(
     axes = torch_axes(tools.torch_axis, bisector, towards)
     flanges = [*(turned @ grasp for grasp in grasps), torch_flanges(tips, axes, towards, torch)]
     gripper = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, tools.gripper_length]]])
-    carriers = [with_tool(arm, gripper, tools.gripper_radius) for arm in arms[:WELDER]]
+    first, second = (with_tool(arm, gripper, tools.gripper_radius) for arm in arms[:WELDER])
     return Cell(
-        arms=(*carriers, with_tool(arms[WELDER], torch.cores, torch.radius)),
+        arms=(first, second, with_tool(arms[WELDER], torch.cores, torch.radius)),
         bases=bases,
         rotations=rotations,
         flanges=np.stack(flanges),

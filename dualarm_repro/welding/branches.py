@@ -122,13 +122,3 @@ def _within(path, lower, upper, middle):
             return False
         path[:, j] += shift
     return True
-
-
-def unwrapped_reference(
-    path: np.ndarray, lower: np.ndarray, upper: np.ndarray
-) -> np.ndarray | None:
-    """Readable twin of the unwrapping and shifting: the path within limits, or None."""
-    path = np.unwrap(path, axis=0)
-    centre = 0.5 * (path.min(axis=0) + path.max(axis=0))
-    path = path + _TURN * np.round((0.5 * (lower + upper) - centre) / _TURN)
-    return path if ((path >= lower) & (path <= upper)).all() else None

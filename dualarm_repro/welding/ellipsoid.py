@@ -112,13 +112,3 @@ def gram_matrices(chain, rotation, q, lever, rows):
                     total += column[r, j] * column[c, j]
                 out[m, r, c] = out[m, c, r] = total
     return out
-
-
-def gram_matrices_reference(
-    jacobian: np.ndarray, rotation: np.ndarray, lever: np.ndarray, rows: int
-) -> np.ndarray:
-    """Readable twin of :func:`gram_matrices` from Jacobians (M, 6, n) in base axes."""
-    v, w = rotation @ jacobian[:, :3], rotation @ jacobian[:, 3:]
-    moved = v + np.cross(w, lever[:, :, np.newaxis], axis=1)
-    J = np.concatenate([moved, w], axis=1)[:, :rows]
-    return J @ J.transpose(0, 2, 1)

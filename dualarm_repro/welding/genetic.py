@@ -25,7 +25,7 @@ _SMALLEST_STEP = 1e-6
 
 
 @dataclass(frozen=True)
-class Settings:
+class GeneticSettings:
     """Settings of a run.
 
     Attributes
@@ -100,7 +100,7 @@ class Search:
     fitness: Fitness
     low: np.ndarray
     high: np.ndarray
-    settings: Settings
+    settings: GeneticSettings
     rng: np.random.Generator
     individuals: np.ndarray = field(init=False)
     values: np.ndarray = field(init=False)
@@ -209,7 +209,7 @@ LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, s
 def evolve(
     fitness: Fitness,
     box: np.ndarray,
-    settings: Settings,
+    settings: GeneticSettings,
     rng: np.random.Generator,
     *,
     must_find: bool = True,

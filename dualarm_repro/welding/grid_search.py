@@ -9,6 +9,8 @@ import numpy as np
 from .genetic import Fitness, checked_box
 
 _SHRINK = 0.5
+#: Values that differ by no more, relative, are equal: round-off must not choose between them.
+TIE = 1e-12
 
 
 class Optimum(NamedTuple):
@@ -26,10 +28,29 @@ def grid_points(box: np.ndarray, spacing: float) -> np.ndarray:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(box))
 
 
+def ranked(positions: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Rows (P,) by value, largest first; rows that tie with the one before, by position.
+
+    A symmetric job has mirror images of one value, which differ by the round-off of a processor.
+
+    Parameters
+    ----------
+    positions : ndarray (P, n)
+        Compared by their first coordinate, then by the next.
+    values : ndarray (P,)
+        Equal if within :data:`TIE`.
+    """
+    order = np.argsort(-values, kind="stable")
+    sizes = values[order]
+    lower = sizes[:-1] - sizes[1:] > TIE * np.abs(sizes[:-1])
+    level = np.concatenate([[0], np.cumsum(lower)])[: len(order)]
+    return order[np.lexsort((*positions[order].T[::-1], level))]
+
+
 def best_cells(points: np.ndarray, values: np.ndarray, count: int, apart: float) -> np.ndarray:
-    """Up to ``count`` points of positive value, best first, no two nearer than ``apart``."""
+    """Up to ``count`` points of positive value, as :func:`ranked`, no two nearer than ``apart``."""
     chosen: list[np.ndarray] = []
-    for k in np.argsort(-values, kind="stable"):
+    for k in ranked(points, values):
         if values[k] <= 0 or len(chosen) == count:
             break
         if all(np.linalg.norm(points[k] - other) >= apart for other in chosen):
@@ -44,6 +65,7 @@ def pattern_search(
 
     R. Hooke and T. A. Jeeves, Direct search solution of numerical and statistical problems, J. ACM
     8(2), 1961, in its plain form with a full poll. Ends when the step falls below ``tolerance``.
+    Neighbours that tie are :func:`ranked`, and one that ties with the position is not better.
     """
     box = checked_box(box)
     position = np.clip(np.asarray(start, dtype=float), *box.T)
@@ -53,8 +75,8 @@ def pattern_search(
         polled = np.clip(position + step * directions, *box.T)
         values = fitness(polled)
         evaluations += len(polled)
-        best = int(values.argmax())
-        if values[best] > value:
+        best = ranked(polled, values)[0]
+        if values[best] - value > TIE * abs(value):
             position, value = polled[best], float(values[best])
         else:
             step *= _SHRINK
@@ -64,16 +86,22 @@ def pattern_search(
 def refined(
     fitness: Fitness, starts: np.ndarray, box: np.ndarray, step: float, tolerance: float
 ) -> Optimum:
-    """The best end of a pattern search from each start; position NaN if there is no start."""
+    """The best end, as :func:`ranked`, of a pattern search from each start; NaN without a start."""
     if not len(starts):
         return Optimum(np.full(len(box), np.nan), 0.0, 0)
     ends = [pattern_search(fitness, start, box, step, tolerance) for start in starts]
-    best = max(ends, key=lambda end: end.fitness)
+    values = np.array([end.fitness for end in ends])
+    best = ends[ranked(np.array([end.position for end in ends]), values)[0]]
     return best._replace(evaluations=sum(end.evaluations for end in ends))
 
 
 def grid_optimum(
-    fitness: Fitness, box: np.ndarray, spacing: float, starts: int = 8, tolerance: float = 1e-5
+    fitness: Fitness,
+    box: np.ndarray,
+    spacing: float,
+    starts: int = 8,
+    tolerance: float = 1e-5,
+    values: np.ndarray | None = None,
 ) -> Optimum:
     """Best point of a grid after refinement of its best cells.
 
@@ -83,10 +111,19 @@ def grid_optimum(
         Of the grid; also the least distance of the refined cells.
     starts : int
         How many cells are refined.
+    tolerance : float
+        Smallest step of the refinement.
+    values : ndarray (P,), optional
+        Fitness of the :func:`grid_points`, where it is known already; not counted then.
+
+    Returns
+    -------
+    Optimum
+        Its position is NaN where no point of the grid is of positive fitness.
     """
-    points = grid_points(box, spacing)
-    values = fitness(points)
-    end = refined(
-        fitness, best_cells(points, values, starts, spacing), box, 0.5 * spacing, tolerance
-    )
-    return end._replace(evaluations=end.evaluations + len(points))
+    points, spent = grid_points(box, spacing), 0
+    if values is None:
+        values, spent = fitness(points), len(points)
+    cells = best_cells(points, values, starts, spacing)
+    end = refined(fitness, cells, box, 0.5 * spacing, tolerance)
+    return end._replace(evaluations=end.evaluations + spent)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..arms import Arm
-from ..arms.wrist_geometry import WristGeometry, wrist_geometry
+from ..arms.wrist_geometry import wrist_geometry
 from ..errors import UnknownNameError
 from ..kernel import kernel
 
@@ -57,16 +57,6 @@ def manipulabilities(geometry, q):
         wrist = sine * math.cos(q[n, 4]) + cosine * math.sin(q[n, 4])
         out[n] = abs(scale * elbow * out_of_axis * wrist)
     return out
-
-
-def closed_form_reference(geometry: WristGeometry, q: np.ndarray) -> np.ndarray:
-    """The same in numpy, with angles instead of sums of angles."""
-    (l2, *direction2), (l3, *direction3) = geometry.upper_arm, geometry.forearm
-    angle2 = np.arctan2(*direction2) + q[:, 1]
-    angle3 = np.arctan2(*direction3) + q[:, 1] + geometry.elbow_sign * q[:, 2]
-    out = geometry.shoulder[0] + l2 * np.sin(angle2) + l3 * np.sin(angle3)
-    wrist = np.prod(geometry.twists, axis=0)[0] * np.sin(np.arctan2(*geometry.turn) + q[:, 4])
-    return np.abs(l2 * l3 * np.sin(angle3 - angle2) * out * wrist)
 
 
 def tight_measure(first: np.ndarray, second: np.ndarray, measure: str = "product") -> np.ndarray:

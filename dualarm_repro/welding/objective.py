@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import UnknownNameError
+from ..errors import InputError, UnknownNameError
 from .cell import Cell
 from .ellipsoid import coupled_pair_volume, ellipsoid_volume, gram_matrices
 from .manipulability import PAIR_MEASURES, tight_measure, weighted_measure
@@ -21,7 +21,8 @@ CHOICES = {
     "unit": ("m", "mm"),
 }
 _PER_METRE = {"m": 1.0, "mm": 1000.0}
-_ROWS = {"translational": 3, "full": 6}
+#: Rows of the Jacobian that each space takes.
+ROWS = {"translational": 3, "full": 6}
 
 
 class Measures(NamedTuple):
@@ -77,11 +78,18 @@ class Objective:
             Manipulabilities of carrier 1, carrier 2 and welder [m^3].
         inverse : ndarray (..., 2, N) or None
             Inverse volumes of carriers and welder (:func:`inverse_volumes`), if they are used.
+
+        Raises
+        ------
+        InputError
+            They are used and not given.
         """
         first, second, loose = np.moveaxis(w * _PER_METRE[self.unit] ** 3, -2, 0)
         tight = tight_measure(first, second, self.pair)
         match self.weights:
             case "inverse_volume":
+                if inverse is None:
+                    raise InputError("objective", "inverse", None, "inverse volumes (..., 2, N)")
                 beta = inverse[..., 0, :], inverse[..., 1, :]
             case "harmonic":
                 beta = 1.0 / tight, 1.0 / loose
@@ -97,19 +105,27 @@ class Objective:
         return values.mean(axis=-1) if self.aggregation == "mean" else values.min(axis=-1)
 
 
+def cell_grams(cell: Cell, q: np.ndarray, rows: int) -> np.ndarray:
+    """A = J J^T of each robot at its reference point, (P, 3, N, 6) -> (3, P N, rows, rows).
+
+    ``rows`` is 3 for translational velocities, 6 for twists; see :func:`.ellipsoid.gram_matrices`.
+    """
+    grams = []
+    for k, arm in enumerate(cell.arms):
+        lever = np.broadcast_to(cell.lever_arms[k], (len(q), cell.count, 3)).reshape(-1, 3)
+        path = np.ascontiguousarray(q[:, k].reshape(-1, arm.nq))
+        rotation = np.ascontiguousarray(cell.bases[k][:3, :3])
+        grams.append(gram_matrices(arm.chain, rotation, path, lever, rows))
+    return np.stack(grams)
+
+
 def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.ndarray:
     """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
 
     The carriers' two inverse volumes are merged by ``carriers``: their mean, their sum, or the
     inverse volume of the coupled pair.
     """
-    count = len(q)
-    grams = []
-    for k, arm in enumerate(cell.arms):
-        lever = np.broadcast_to(cell.lever_arms[k], (count, cell.count, 3)).reshape(-1, 3)
-        path = np.ascontiguousarray(q[:, k].reshape(-1, arm.nq))
-        rotation = np.ascontiguousarray(cell.bases[k][:3, :3])
-        grams.append(gram_matrices(arm.chain, rotation, path, lever, _ROWS[space]))
+    grams = cell_grams(cell, q, ROWS[space])
     first, second, welder = (1.0 / ellipsoid_volume(A) for A in grams)
     match carriers:
         case "mean":
@@ -118,4 +134,4 @@ def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.
             tight = first + second
         case _:
             tight = 1.0 / coupled_pair_volume(grams[0], grams[1])
-    return np.stack([tight, welder]).reshape(2, count, cell.count).transpose(1, 0, 2)
+    return np.stack([tight, welder]).reshape(2, len(q), cell.count).transpose(1, 0, 2)

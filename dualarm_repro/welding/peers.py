@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import differential_evolution
 
-from .genetic import Fitness, Settings, checked_box, evolve
+from .genetic import Fitness, GeneticSettings, checked_box, evolve
 from .grid_search import Optimum, pattern_search
 
 Optimiser = Callable[[Fitness, np.ndarray, int, int], Optimum]
@@ -41,14 +41,16 @@ class _Budget:
 def random_search(fitness: Fitness, box: np.ndarray, budget: int, seed: int) -> Optimum:
     """Uniform points."""
     box, counted = checked_box(box), _Budget(fitness, budget, len(box))
-    counted(np.random.default_rng(seed).uniform(*box.T, (budget, len(box))))
+    low, high = box.T
+    counted(np.random.default_rng(seed).uniform(low, high, (budget, len(box))))
     return counted.best
 
 
 def multistart_pattern_search(fitness: Fitness, box: np.ndarray, budget: int, seed: int) -> Optimum:
     """A third of the budget on uniform points, then pattern searches from the best of them."""
     box, counted = checked_box(box), _Budget(fitness, budget, len(box))
-    points = np.random.default_rng(seed).uniform(*box.T, (budget // 3, len(box)))
+    low, high = box.T
+    points = np.random.default_rng(seed).uniform(low, high, (budget // 3, len(box)))
     values = counted(points)
     for k in np.argsort(-values, kind="stable"):
         if values[k] <= 0 or counted.left <= 0:
@@ -61,9 +63,9 @@ def genetic(
     fitness: Fitness, box: np.ndarray, budget: int, seed: int, mutation: str = "gaussian"
 ) -> Optimum:
     """The algorithm of this package with its defaults; the budget sets the generations."""
-    elite, *_ = Settings().counts
+    elite, *_ = GeneticSettings().counts
     generations = max(1, (budget - _POPULATION) // (_POPULATION - elite))
-    settings = Settings(population=_POPULATION, generations=generations, mutation=mutation)
+    settings = GeneticSettings(population=_POPULATION, generations=generations, mutation=mutation)
     found = evolve(fitness, box, settings, np.random.default_rng(seed), must_find=False)
     return Optimum(found.best, found.fitness, found.evaluations)
 
@@ -117,13 +119,13 @@ def covariance_matrix_adaptation(
     from cma import CMAEvolutionStrategy
 
     box, counted = checked_box(box), _Budget(fitness, budget, len(box))
-    rng, size = np.random.default_rng(seed), np.ptp(box, axis=1)
+    rng, (low, high) = np.random.default_rng(seed), box.T
     while counted.left > _POPULATION:
-        points = rng.uniform(*box.T, (_POPULATION, len(box)))
+        points = rng.uniform(low, high, (_POPULATION, len(box)))
         start = points[counted(points).argmax()]
         options = {
-            "bounds": list(box.T),
-            "CMA_stds": size,
+            "bounds": [low, high],
+            "CMA_stds": high - low,
             "popsize": 16,
             "seed": int(rng.integers(1, 2**31)),
             "verbose": -9,

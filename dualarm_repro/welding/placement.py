@@ -78,7 +78,7 @@ class Placement:
         """Fitness (P,) of positions (P, 3) [m]."""
         centres = _positions(centres)
         self.evaluations += len(centres)
-        parts = [self._score(self.jobs(block)) for block in _blocks(centres)]
+        parts = [self.score(self.jobs(block)) for block in blocks(centres)]
         return np.concatenate(parts) if parts else np.empty(0)
 
     def jobs(self, centres: ArrayLike) -> Jobs:
@@ -92,7 +92,8 @@ class Placement:
             inverse = inverse_volumes(self.cell, jobs.q, objective.space, objective.carriers)
         return objective.measures(jobs.w, inverse)
 
-    def _score(self, jobs: Jobs) -> np.ndarray:
+    def score(self, jobs: Jobs) -> np.ndarray:
+        """Fitness (P,) of jobs."""
         fitness = np.zeros(len(jobs.centres))
         kept = jobs.feasible
         if kept.any():
@@ -143,5 +144,6 @@ def _positions(centres: ArrayLike) -> np.ndarray:
     return array
 
 
-def _blocks(centres: np.ndarray) -> Iterator[np.ndarray]:
-    return (centres[k : k + _BLOCK] for k in range(0, len(centres), _BLOCK))
+def blocks(points: np.ndarray) -> Iterator[np.ndarray]:
+    """The points in portions whose jobs fit in memory."""
+    return (points[k : k + _BLOCK] for k in range(0, len(points), _BLOCK))

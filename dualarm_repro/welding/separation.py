@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
+from ..scene.bodies import Bodies, Body, PlacedArm, collect
 from ..scene.pair_kernels import capsules_capsules, capsules_planes
+from ..scene.pairs import Pairs
 from ..scene.posing import link_frames, links_of, place_cores
+from ..scene.scene import FLOOR
+from ..scene.shapes import Capsule, HalfSpace, Shape
 from .cell import ROBOTS, WELDER, Cell
 from .nearest import smallest_distances
 
-WORKPIECE, FLOOR = "workpiece", "floor"
-HELD = 0  # row of the pipe that the carriers hold
+WORKPIECE = "workpiece"
+HELD = f"{WORKPIECE}/0"  # the pipe that the carriers hold
 _BLOCK = 8  # placements handled at once, so that their cores stay in the cache of the processor
 _NO_WITNESS = np.empty((0, 0, 3, 3))
 
@@ -31,62 +33,41 @@ EXEMPTIONS = {
 }
 
 
-class Part(NamedTuple):
-    """One capsule: owner, name, and the joint of the arm that carries it (None: the workpiece)."""
-
-    owner: str
-    name: str
-    joint: int | None
-
-
 @dataclass(frozen=True, eq=False)
 class Separation:
     """The watched pairs of a cell.
 
+    Bodies and pairs are of the kind that a scene has, but chosen by another rule: a scene watches
+    links of controlled arms only, here the workpiece that is carried must clear the floor as well.
+
     Attributes
     ----------
-    parts : tuple of Part
-    pairs, floor_pairs : ndarray (K, 2), (F, 2)
-        Rows of the parts; the second of a floor pair is 0.
+    bodies : Bodies
+        Links of the arms, pipes of the workpiece, floor.
+    pairs : Pairs
+        Pairs with the floor last.
     """
 
     cell: Cell
-    parts: tuple[Part, ...] = field(init=False)
-    pairs: np.ndarray = field(init=False)
-    floor_pairs: np.ndarray = field(init=False)
+    bodies: Bodies = field(init=False)
+    pairs: Pairs = field(init=False)
 
     def __post_init__(self) -> None:
-        parts = tuple(_parts(self.cell))
-        rows = [
-            (i, j) for i, j in combinations(range(len(parts)), 2) if _watched(parts[i], parts[j])
-        ]
-        above = [(i, 0) for i, part in enumerate(parts) if part.joint is None or part.joint > 1]
-        object.__setattr__(self, "parts", parts)
-        object.__setattr__(self, "pairs", np.array(rows))
-        floor = above if self.cell.floor is not None else []
-        object.__setattr__(self, "floor_pairs", np.array(floor, dtype=int).reshape(-1, 2))
-
-    @property
-    def names(self) -> list[tuple[str, str]]:
-        """Both parts of every pair, floor pairs last."""
-        label = [f"{part.owner} {part.name}" for part in self.parts]
-        inside = [(label[i], label[j]) for i, j in self.pairs]
-        return inside + [(label[i], FLOOR) for i, _ in self.floor_pairs]
+        bodies = _bodies(self.cell)
+        watched = [pair for pair in combinations(bodies.all, 2) if _watched(*pair)]
+        watched.sort(key=lambda pair: pair[1].owner == FLOOR)
+        object.__setattr__(self, "bodies", bodies)
+        object.__setattr__(self, "pairs", Pairs(tuple(watched)))
 
     @property
     def owners(self) -> list[tuple[str, str]]:
-        """Both owners of every pair, the torch apart from the welder; floor pairs last."""
-        owner = [
-            "torch" if part.owner == ROBOTS[WELDER] and part.name.startswith("tool") else part.owner
-            for part in self.parts
-        ]
-        inside = [(owner[i], owner[j]) for i, j in self.pairs]
-        return inside + [(owner[i], FLOOR) for i, _ in self.floor_pairs]
+        """Both owners of every pair, the torch apart from the welder."""
+        return [(_owner(a), _owner(b)) for a, b in self.pairs.bodies]
 
     def cores(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
-        """Cores of all parts in the world, (P, 3, N, 6) and (P, 3) -> (P N, C, 2, 3) [m]."""
+        """Cores of all capsules in the world, (P, 3, N, 6) and (P, 3) -> (P N, C, 2, 3) [m]."""
         cell = self.cell
-        ends = np.empty((len(centres) * cell.count, len(self.parts), 2, 3))
+        ends = np.empty((len(centres) * cell.count, len(self.bodies.radius), 2, 3))
         start = 0
         for k, arm in enumerate(cell.arms):
             links = links_of(arm)
@@ -100,20 +81,14 @@ class Separation:
         ends[:, start:] = placed.reshape(-1, *cell.pipe_cores.shape)
         return ends
 
-    @cached_property
-    def radii(self) -> np.ndarray:
-        """Radii of all parts (C,) [m]."""
-        links = [links_of(arm).radius for arm in self.cell.arms]
-        return np.concatenate([*links, self.cell.pipe_radii])
-
     def smallest(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
-        out, above = np.empty(len(centres)), self.floor_pairs[:, 0].copy()
-        height = self.cell.floor or 0.0
+        out, rows = np.empty(len(centres)), self.pairs.rows
+        above, height = rows["plane"][:, 0].copy(), self.cell.floor or 0.0
         for block in _blocks(len(centres)):
             ends = self.cores(q[block], centres[block])
             out[block] = smallest_distances(
-                ends, self.radii, self.pairs, above, height, self.cell.count
+                ends, self.bodies.radius, rows["capsule"], above, height, self.cell.count
             )
         return out
 
@@ -127,17 +102,17 @@ class Separation:
 
         Returns
         -------
-        ndarray (P, K + F) [m]
-            In the order of :attr:`names`.
+        ndarray (P, K) [m]
+            In the order of :attr:`pairs`.
         """
-        out = np.empty((len(centres), len(self.pairs) + len(self.floor_pairs)))
-        plane = np.array([[0.0, 0.0, 1.0, self.cell.floor or 0.0]])
+        out, bodies = np.empty((len(centres), len(self.pairs))), self.bodies
+        rows = self.pairs.rows
         for block in _blocks(len(centres)):
             ends = self.cores(q[block], centres[block])
             distance = np.empty((len(ends), out.shape[1]))
-            between, above = np.split(distance, [len(self.pairs)], axis=1)
-            capsules_capsules(ends, self.radii, self.pairs, between, _NO_WITNESS)
-            capsules_planes(ends, self.radii, plane, self.floor_pairs, above, _NO_WITNESS)
+            between, above = np.split(distance, [len(rows["capsule"])], axis=1)
+            capsules_capsules(ends, bodies.radius, rows["capsule"], between, _NO_WITNESS)
+            capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
             shape = (-1, self.cell.count, out.shape[1])
             out[block] = distance.reshape(shape).min(axis=1)
         return out
@@ -147,17 +122,28 @@ def _blocks(count: int) -> Iterator[slice]:
     return (slice(first, first + _BLOCK) for first in range(0, count, _BLOCK))
 
 
-def _parts(cell: Cell) -> Iterator[Part]:
-    for robot, arm in zip(ROBOTS, cell.arms, strict=True):
-        for name, joint in zip(*links_of(arm)[:2], strict=True):
-            yield Part(robot, str(name), int(joint))
-    for k in range(len(cell.pipe_radii)):
-        yield Part(WORKPIECE, f"pipe_{k}", None)
+def _bodies(cell: Cell) -> Bodies:
+    pipes = zip(cell.pipe_cores, cell.pipe_radii, strict=True)
+    solids: dict[str, tuple[Shape, ...]] = {
+        WORKPIECE: tuple(Capsule(start, end, radius) for (start, end), radius in pipes)
+    }
+    if cell.floor is not None:
+        solids[FLOOR] = (HalfSpace((0.0, 0.0, 1.0), cell.floor),)
+    arms = [PlacedArm(robot, arm) for robot, arm in zip(ROBOTS, cell.arms, strict=True)]
+    return collect(arms, solids, {})
 
 
-def _watched(a: Part, b: Part) -> bool:
+def _watched(a: Body, b: Body) -> bool:
+    """Whether a pair is measured; ``a`` comes first among the bodies."""
+    if b.owner == FLOOR:
+        return a.joint is None or a.joint > 1
+    if a.joint is None:
+        return False
     if a.owner == b.owner:
-        return a.joint is not None and min(a.joint, b.joint) <= 2 and max(a.joint, b.joint) == 6
-    if b.owner == WORKPIECE and b.name == f"pipe_{HELD}":
-        return a.owner == ROBOTS[WELDER] or a.joint < 6
-    return True
+        return b.joint is not None and min(a.joint, b.joint) <= 2 and max(a.joint, b.joint) == 6
+    return b.name != HELD or a.owner == ROBOTS[WELDER] or a.joint < 6
+
+
+def _owner(body: Body) -> str:
+    is_torch = body.name.startswith(f"{ROBOTS[WELDER]}/tool")
+    return "torch" if is_torch else body.owner

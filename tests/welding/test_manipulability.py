@@ -14,15 +14,15 @@ from dualarm_repro.welding.ellipsoid import (
     coupled_pair_volume,
     ellipsoid_volume,
     gram_matrices,
-    gram_matrices_reference,
     intersection_volume,
     intersection_volume_monte_carlo,
     unit_ball_volume,
 )
-from dualarm_repro.welding.manipulability import closed_form_reference, tight_measure
+from dualarm_repro.welding.manipulability import tight_measure
 from dualarm_repro.welding.objective import CHOICES
 
 from .cells import make_cell
+from .references import closed_form_reference, gram_matrices_reference
 
 ARMS = ("er16", "er20-1780", "kr16-2", "irb2400", "irb120", "es165d")
 

@@ -19,10 +19,11 @@ from dualarm_repro.welding import (
     base_poses,
     closed_form,
 )
-from dualarm_repro.welding.branches import follow, unwrapped_reference
+from dualarm_repro.welding.branches import follow
 from dualarm_repro.welding.grid_search import grid_points
 
 from .cells import BASES, BOX, make_cell
+from .references import unwrapped_reference
 
 GOOD = np.array([[0.0, 0.1, 0.8]])
 

@@ -6,9 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualarm_repro.errors import InputError, UnknownNameError
-from dualarm_repro.welding import Objective, Placement, Settings, evolve, grid_optimum
+from dualarm_repro.welding import GeneticSettings, Objective, Placement, evolve, grid_optimum
 from dualarm_repro.welding import genetic as ga
-from dualarm_repro.welding.grid_search import best_cells, grid_points, pattern_search, refined
+from dualarm_repro.welding.grid_search import (
+    best_cells,
+    grid_points,
+    pattern_search,
+    ranked,
+    refined,
+)
 from dualarm_repro.welding.peers import OPTIMISERS
 
 from .cells import BOX, make_cell
@@ -25,7 +31,7 @@ def hill(points):
 @pytest.mark.parametrize("mutation", ga.MUTATIONS)
 @pytest.mark.parametrize("infeasible", ga.INFEASIBLE)
 def test_finds_the_hill(mutation, infeasible):
-    settings = Settings(mutation=mutation, infeasible=infeasible)
+    settings = GeneticSettings(mutation=mutation, infeasible=infeasible)
     for seed in range(3):
         found = evolve(hill, BOX, settings, np.random.default_rng(seed))
         assert found.found
@@ -36,7 +42,7 @@ def test_finds_the_hill(mutation, infeasible):
 @settings(max_examples=20)
 @given(st.integers(0, 10_000), st.integers(4, 40), st.sampled_from(ga.MUTATIONS))
 def test_invariants(seed, population, mutation):
-    settings = Settings(population=population, generations=15, mutation=mutation)
+    settings = GeneticSettings(population=population, generations=15, mutation=mutation)
     asked = []
 
     def fitness(points):
@@ -56,22 +62,22 @@ def test_invariants(seed, population, mutation):
 
 
 def test_same_seed_same_run():
-    runs = [evolve(hill, BOX, Settings(), np.random.default_rng(7)) for _ in range(2)]
+    runs = [evolve(hill, BOX, GeneticSettings(), np.random.default_rng(7)) for _ in range(2)]
     assert (runs[0].best == runs[1].best).all()
     assert runs[0].history == runs[1].history
-    other = evolve(hill, BOX, Settings(), np.random.default_rng(8))
+    other = evolve(hill, BOX, GeneticSettings(), np.random.default_rng(8))
     assert other.history != runs[0].history
 
 
 def test_both_rules_end_a_run():
-    long = evolve(hill, BOX, Settings(stall=0.0, generations=20), np.random.default_rng(1))
+    long = evolve(hill, BOX, GeneticSettings(stall=0.0, generations=20), np.random.default_rng(1))
     assert (long.reason, len(long.history)) == ("generations", 21)
-    flat = evolve(lambda p: np.ones(len(p)), BOX, Settings(), np.random.default_rng(1))
+    flat = evolve(lambda p: np.ones(len(p)), BOX, GeneticSettings(), np.random.default_rng(1))
     assert (flat.reason, len(flat.history)) == ("stall", 11)
 
 
 def test_nothing_feasible():
-    given = (lambda p: np.zeros(len(p)), BOX, Settings(generations=5))
+    given = (lambda p: np.zeros(len(p)), BOX, GeneticSettings(generations=5))
     found = evolve(*given, np.random.default_rng(1), must_find=False)
     assert not found.found
     with pytest.raises(InputError, match="none of the 285 evaluated ones is"):
@@ -83,7 +89,7 @@ def test_nothing_feasible():
 
 @pytest.mark.parametrize("seed", range(4))
 def test_parents_are_drawn_in_proportion_to_one_over_the_root_of_their_rank(seed):
-    search = ga.Search(hill, *BOX.T, Settings(), np.random.default_rng(seed))
+    search = ga.Search(hill, *BOX.T, GeneticSettings(), np.random.default_rng(seed))
     ga.initialise(search)
     ga.evaluate(search)
     ga.rank(search)
@@ -106,20 +112,20 @@ def test_parents_are_drawn_in_proportion_to_one_over_the_root_of_their_rank(seed
 )
 def test_bad_settings(changes, field):
     with pytest.raises(InputError, match=field):
-        Settings(**changes)
+        GeneticSettings(**changes)
 
 
 def test_unknown_operators():
     with pytest.raises(UnknownNameError, match="gaussian, adaptive_feasible"):
-        Settings(mutation="uniform")
+        GeneticSettings(mutation="uniform")
     with pytest.raises(UnknownNameError, match="zero, redraw"):
-        Settings(infeasible="penalty")
+        GeneticSettings(infeasible="penalty")
 
 
 @pytest.mark.parametrize("box", [BOX[:, ::-1], BOX[:, :1], BOX * np.inf, np.zeros((3, 2))])
 def test_bad_box(box):
     with pytest.raises(InputError, match="lower < upper"):
-        evolve(hill, box, Settings(), np.random.default_rng(1))
+        evolve(hill, box, GeneticSettings(), np.random.default_rng(1))
     with pytest.raises(InputError, match="lower < upper"):
         grid_points(box, 0.1)
 
@@ -158,7 +164,52 @@ def test_genetic_algorithm_meets_the_ground_truth():
     placement = Placement(make_cell(count=18), Objective())
     truth = grid_optimum(placement, BOX, 0.1)
     for seed in range(2):
-        found = evolve(placement, BOX, Settings(), np.random.default_rng(seed))
+        found = evolve(placement, BOX, GeneticSettings(), np.random.default_rng(seed))
         assert found.fitness > 0.999 * truth.fitness
         gap = np.abs(found.best) - np.abs(truth.position)
         assert np.linalg.norm(gap) < 0.1
+
+
+def _nearly(values, seed):
+    """The same up to round-off."""
+    return values * (1.0 + 1e-14 * np.random.default_rng(seed).normal(size=values.shape))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_round_off_does_not_choose_between_ties(seed):
+    points = np.array([[0.2, 0.1], [-0.2, 0.3], [-0.2, 0.1], [0.0, 0.0], [0.5, 0.5]])
+    values = _nearly(np.array([2.0, 2.0, 2.0, 3.0, -1.0]), seed)
+    assert ranked(points, values).tolist() == [3, 2, 1, 0, 4]
+    assert best_cells(points, values, 2, 0.1).tolist() == [[0.0, 0.0], [-0.2, 0.1]]
+    assert ranked(points, values + np.array([1e-9, 0, 0, 0, 0])).tolist() == [3, 0, 2, 1, 4]
+    assert ranked(points[:0], values[:0]).tolist() == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_search_of_a_symmetric_hill_ends_at_the_same_of_its_peaks(seed):
+    rng = np.random.default_rng(seed)
+
+    def peaks(points):
+        """Two equal hills, mirror images of each other, joined by a ridge that is flat along z."""
+        sides = np.exp(-4 * ((np.abs(points[:, 0]) - 0.3) ** 2 + points[:, 1] ** 2))
+        return sides * (1.0 + 1e-14 * rng.normal(size=len(points)))
+
+    found = grid_optimum(peaks, BOX, 0.3)
+    assert found.position == pytest.approx([-0.3, 0.0, BOX[2, 0]], abs=1e-4)
+    steps = pattern_search(peaks, np.array([0.0, 0.0, 0.5]), BOX, 0.1, 1e-3)
+    assert steps.position == pytest.approx([-0.3, 0.0, 0.5], abs=2e-3)
+
+
+def test_known_values_of_the_grid_are_not_asked_for_again():
+    asked = []
+
+    def fitness(points):
+        asked.append(len(points))
+        return hill(points)
+
+    plain = grid_optimum(fitness, BOX, 0.2)
+    assert plain.evaluations == sum(asked)
+    points = grid_points(BOX, 0.2)
+    known = grid_optimum(fitness, BOX, 0.2, values=hill(points))
+    assert (known.position == plain.position).all()
+    assert known.evaluations == plain.evaluations - len(points)

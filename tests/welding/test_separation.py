@@ -10,7 +10,7 @@ from dualarm_repro.scene.pair_kernels import capsules_capsules
 from dualarm_repro.scene.posing import links_of
 from dualarm_repro.welding import ROBOTS, Objective, Placement, Separation
 from dualarm_repro.welding.grid_search import grid_points
-from dualarm_repro.welding.separation import EXEMPTIONS, FLOOR, WORKPIECE
+from dualarm_repro.welding.separation import EXEMPTIONS, FLOOR, HELD, WORKPIECE
 
 from .cells import BOX, make_cell
 
@@ -65,10 +65,10 @@ def test_whole_cell_against_pinocchio_and_coal(solved):
         at = pin.SE3(cell.piece_pose(CENTRE[0])[n])
         shapes = zip(cell.pipe_cores, cell.pipe_radii, strict=True)
         pipes.append([(at * p, g) for p, g in (segment_capsule(*c, r) for c, r in shapes)])
-    smallest = np.full(len(separation.pairs), np.inf)
+    smallest = np.full(len(separation.pairs.rows["capsule"]), np.inf)
     for n in range(cell.count):
         world = [body for rows in bodies for body in rows[n]] + pipes[n]
-        for k, (i, j) in enumerate(separation.pairs):
+        for k, (i, j) in enumerate(separation.pairs.rows["capsule"]):
             poses = [
                 coal.Transform3s(world[b][0].rotation, world[b][0].translation) for b in (i, j)
             ]
@@ -84,8 +84,8 @@ def test_floor_distances(solved):
     placement, jobs = solved
     separation = placement.separation
     cores = separation.cores(jobs.q, CENTRE)
-    rows = separation.floor_pairs[:, 0]
-    lowest = cores[:, rows][..., 2].min(axis=(0, 2)) - separation.radii[rows]
+    rows = separation.pairs.rows["plane"][:, 0]
+    lowest = cores[:, rows][..., 2].min(axis=(0, 2)) - separation.bodies.radius[rows]
     assert abs(separation.per_pair(jobs.q, CENTRE)[0, -len(rows) :] - lowest).max() < 1e-12
 
 
@@ -102,9 +102,9 @@ def test_which_pairs_are_watched(solved):
         {WORKPIECE, FLOOR},
     ):
         assert frozenset(pair) in owners
-    names = separation.names
+    names = separation.pairs.names
     assert len(names) == len(set(names)) == len(separation.owners)
-    held = [pair for pair in names if "workpiece pipe_0" in pair]
+    held = [pair for pair in names if HELD in pair]
     assert not any("tool" in a and "carrier" in a for a, _ in held)
     assert any("tool" in a and "welder" in a for a, _ in held)
     assert not any("joint_1" in a and b == FLOOR for a, b in names)
@@ -113,7 +113,7 @@ def test_which_pairs_are_watched(solved):
 
 def test_no_floor():
     separation = Separation(make_cell(count=12, floor=None))
-    assert not len(separation.floor_pairs)
+    assert not len(separation.pairs.rows["plane"])
     assert FLOOR not in {name for pair in separation.owners for name in pair}
 
 

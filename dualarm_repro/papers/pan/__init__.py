@@ -1,41 +1,5 @@
 """Document `pan`: where to start a weld with three robots, by manipulability and evolution."""
 
-from . import (
-    bases,
-    consistency,
-    coordination,
-    drawings,
-    errata,
-    evolution,
-    fit,
-    geometry,
-    measures,
-    poor,
-    problem,
-    result,
-    search_claims,
-    search_steps,
-    sensitivity,
-    studies,
-    system_measure,
-)
+from . import errata, pages, studies
 
-__all__ = [
-    "bases",
-    "consistency",
-    "coordination",
-    "drawings",
-    "errata",
-    "evolution",
-    "fit",
-    "geometry",
-    "measures",
-    "poor",
-    "problem",
-    "result",
-    "search_claims",
-    "search_steps",
-    "sensitivity",
-    "studies",
-    "system_measure",
-]
+__all__ = ["errata", "pages", "studies"]

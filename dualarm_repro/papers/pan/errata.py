@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import sympy as sp
 
@@ -9,20 +11,10 @@ from ...errors import DataFileError
 from ...ledger import REGISTRY, Proof, evaluate
 from ...ledger.formula import parse
 from ...welding import base_poses
-from .nominal import nominal_values
-from .optimum import SPACING, TOLERANCE, optimum
-from .positions import search_box
+from .document import SEED, printed_base_matrix, printed_bases, stand_in
+from .pages.measure.system import best_by_unit, unit_powers
 from .print_forms import holds, printed_text
-from .scenario import (
-    SEED,
-    FlatSeam,
-    Job,
-    Measure,
-    printed_base_matrix,
-    printed_bases,
-    stand_in,
-)
-from .system_measure import unit_powers
+from .reading import SPACING, TOLERANCE, FlatSeam, Problem, optimum
 
 
 @REGISTRY.proves("pan.base_transform")
@@ -65,7 +57,7 @@ def eq14_size() -> Proof:
 @REGISTRY.proves("pan.eq13_size")
 def eq13_size() -> Proof:
     """Whether (12) is defined with the printed sizes."""
-    found = evaluate(REGISTRY, "pan.eq13").result.obtained
+    found = _obtained("pan.eq13")
     return Proof(
         "the product (12) exists for vectors of 2n and 2m entries and not for the printed sizes",
         found["stacked"] and found["as_printed"] is False,
@@ -76,13 +68,9 @@ def eq13_size() -> Proof:
 @REGISTRY.proves("pan.tight_loose_units")
 def tight_loose_units() -> Proof:
     """The printed measures under a change of the unit of length, and the optimum in both."""
-    values = nominal_values()
+    values = REGISTRY.nominal("pan")
     powers = unit_powers(values["arm"])
-    job, box = Job.of(values), search_box(values)
-    best = {
-        unit: np.abs(optimum(job, Measure.of({**values, "length_unit": unit}), box).position)
-        for unit in ("m", "mm")
-    }
+    best = best_by_unit(Problem.of(values))
     moved = float(np.linalg.norm(best["m"] - best["mm"]))
     terms = [round(powers[name][0], 9) for name in ("M_tight", "M_loose")]
     return Proof(
@@ -110,7 +98,7 @@ def beta_cancels() -> Proof:
 
     cancels = sp.simplify(measure(V) - measure(sp.Integer(1))) == 0
     free = V not in sp.simplify(measure(V)).free_symbols
-    gap = evaluate(REGISTRY, "pan.claim_beta_rule").result.obtained["gap"]
+    gap = _obtained("pan.claim_beta_rule")["gap"]
     return Proof(
         "the volume of the intersection cancels in the printed (16), in symbols and in numbers",
         bool(cancels and free and gap < 1e-9),
@@ -121,7 +109,7 @@ def beta_cancels() -> Proof:
 @REGISTRY.proves("pan.constant_pose")
 def constant_pose() -> Proof:
     """How far the workpiece must turn to lay every seam point flat."""
-    flat = FlatSeam.of(nominal_values())
+    flat = FlatSeam.of(REGISTRY.nominal("pan"))
     trace = np.trace(flat.rotations[0].T @ flat.rotations, axis1=1, axis2=2)
     turn = float(np.degrees(np.arccos(np.clip((trace - 1) / 2, -1, 1)).max()))
     return Proof(
@@ -135,7 +123,7 @@ def constant_pose() -> Proof:
 @REGISTRY.proves("pan.rank_condition")
 def rank_condition() -> Proof:
     """Rank of the Jacobian at random and at nearly singular configurations."""
-    arm = stand_in(nominal_values()["arm"])
+    arm = stand_in(REGISTRY.nominal("pan")["arm"])
     q = arm.random_configurations(10_000, np.random.default_rng(SEED))
     near = q[:100].copy()
     near[:, 4] = 1e-6
@@ -146,7 +134,7 @@ def rank_condition() -> Proof:
     return Proof(
         "the printed condition holds at every one of 10 000 random configurations and still a "
         "millionth of a radian from a wrist singularity, where the arm can hardly move",
-        full and at_near and smallest < nominal_values()["singularity_threshold"],
+        full and at_near and smallest < REGISTRY.nominal("pan")["singularity_threshold"],
         {"near_a_singularity": at_near, "largest_measure_there": smallest},
     )
 
@@ -154,7 +142,7 @@ def rank_condition() -> Proof:
 @REGISTRY.proves("pan.ellipsoid_axes")
 def ellipsoid_axes() -> Proof:
     """Singular values, eigenvalues and the measure of one direction at a random configuration."""
-    arm = stand_in(nominal_values()["arm"])
+    arm = stand_in(REGISTRY.nominal("pan")["arm"])
     J = arm.jacobian(arm.random_configurations(1, np.random.default_rng(SEED))[0])
     singular = np.linalg.svd(J, compute_uv=False)
     eigen = np.sort(np.abs(np.linalg.eigvals(J)))[::-1]
@@ -169,11 +157,10 @@ def ellipsoid_axes() -> Proof:
 @REGISTRY.proves("pan.no_certificate")
 def no_certificate() -> Proof:
     """The mirror image of the optimum is as good."""
-    values = nominal_values()
-    job, measure = Job.of(values), Measure.of(values)
-    best = optimum(job, measure, search_box(values))
+    problem = Problem.of(REGISTRY.nominal("pan"))
+    best = optimum(problem)
     image = best.position * [-1.0, 1.0, 1.0]
-    fitness = float(job.placement(measure.reading())([image])[0])
+    fitness = float(problem.placement()([image])[0])
     apart = float(np.linalg.norm(best.position - image))
     return Proof(
         "the mirror image of the optimum in the plane x = 0 has the same fitness, so that the "
@@ -181,6 +168,11 @@ def no_certificate() -> Proof:
         bool(abs(fitness / best.fitness - 1) < 1e-6 and apart > TOLERANCE),
         {"fitness": best.fitness, "of_the_image": fitness, "apart_m": apart},
     )
+
+
+def _obtained(item: str) -> dict[str, Any]:
+    result = evaluate(REGISTRY, item).result
+    return result.obtained if result else {}
 
 
 def _in_symbols(text: str, **values: sp.Expr) -> sp.Expr:

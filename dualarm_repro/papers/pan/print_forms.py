@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import ge, gt, le, lt
 from typing import Any
 
@@ -13,7 +13,13 @@ from ...errors import DataFileError
 from ...ledger import REGISTRY
 from ...ledger.formula import parse
 
-_RELATIONS = {"<=": le, ">=": ge, "<": lt, ">": gt, "=": np.isclose}
+_RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "<=": le,
+    ">=": ge,
+    "<": lt,
+    ">": gt,
+    "=": np.isclose,
+}
 _NO_VALUE = (DataFileError, ValueError, TypeError, IndexError, np.linalg.LinAlgError)
 
 

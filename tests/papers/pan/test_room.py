@@ -5,34 +5,33 @@ import pytest
 
 from dualarm_repro.errors import UnknownNameError
 from dualarm_repro.ledger import REGISTRY
-from dualarm_repro.papers.pan.consistency import CONSISTENCY, OBJECTIVES, READINGS, SETS, cells
-from dualarm_repro.papers.pan.coordination import periodic_derivative
-from dualarm_repro.papers.pan.fit import FIT
-from dualarm_repro.papers.pan.nominal import nominal_values
-from dualarm_repro.papers.pan.optimum import optimum, solved, survey
-from dualarm_repro.papers.pan.positions import _first_of_equals, extreme_position, search_box
-from dualarm_repro.papers.pan.result import reading_table
-from dualarm_repro.papers.pan.scenario import (
-    Genetic,
-    Job,
-    Measure,
+from dualarm_repro.papers.pan.document import (
     placed_bases,
     printed_base_matrix,
     printed_bases,
     printed_optimum,
     stand_in,
 )
-from dualarm_repro.papers.pan.sensitivity import sensitivity_table
-from dualarm_repro.papers.pan.studies import EVOLUTION, OPTIMISERS, RUNS, SENSITIVITY, TRUTH
-from dualarm_repro.welding import Optimum
+from dualarm_repro.papers.pan.pages.optimum.printed_point import reading_table
+from dualarm_repro.papers.pan.reading import Genetic, Problem, optimum, poor_position, solved
+from dualarm_repro.papers.pan.studies.consistency import (
+    CONSISTENCY,
+    OBJECTIVES,
+    READINGS,
+    SETS,
+    cells,
+)
+from dualarm_repro.papers.pan.studies.evolution import EVOLUTION, RUNS
+from dualarm_repro.papers.pan.studies.fit import FIT
+from dualarm_repro.papers.pan.studies.optimisers import OPTIMISERS, TRUTH
+from dualarm_repro.papers.pan.studies.sensitivity import SENSITIVITY, sensitivity_table
 
 STUDIES = (CONSISTENCY, EVOLUTION, FIT, OPTIMISERS, SENSITIVITY)
 
 
 @pytest.fixture(scope="module")
 def declared(registry):
-    values = nominal_values()
-    return Job.of(values), Measure.of(values), search_box(values)
+    return Problem.of(REGISTRY.nominal("pan"))
 
 
 def test_printed_values_are_read_from_the_ledger(registry):
@@ -63,47 +62,28 @@ def test_shoulder_and_radii_can_be_changed():
 
 
 def test_declared_settings(registry):
-    settings = Genetic.of(nominal_values()).settings()
+    settings = Genetic.of(REGISTRY.nominal("pan")).settings()
     assert settings.counts == (3, 38, 9)
 
 
 def test_optimum_is_feasible_and_beats_its_surroundings(declared):
-    job, measure, box = declared
-    best = optimum(job, measure, box)
-    assert solved(job, tuple(best.position)).feasible.all()
+    best = optimum(declared)
+    assert solved(declared.job, tuple(best.position)).feasible.all()
     rng = np.random.default_rng(3)
     around = best.position + rng.normal(scale=0.03, size=(200, 3))
-    assert job.placement(measure.reading())(around).max() <= best.fitness
+    assert declared.placement()(around).max() <= best.fitness
 
 
 def test_extreme_positions_keep_their_rules(declared):
-    job, measure, box = declared
-    rng = np.random.default_rng(4)
-    placement = job.placement(measure.reading())
-    jobs = placement.jobs(rng.uniform(*np.array(box).T, (400, 3)))
+    rng, placement = np.random.default_rng(4), declared.placement()
+    jobs = placement.jobs(rng.uniform(*declared.box.T, (400, 3)))
     jobs = jobs.select(jobs.feasible)
     assert len(jobs.status)
-    lowest = extreme_position(job, measure, box, "lowest_welder")
+    lowest = poor_position(declared, "lowest_welder")
     assert 1 / lowest.fitness <= jobs.w[:, 2].max(axis=1).min()
-    unsteady = extreme_position(job, measure, box, "largest_variation")
+    unsteady = poor_position(declared, "largest_variation")
     system = placement.measures(jobs).system
     assert unsteady.fitness >= (system.std(axis=1) / system.mean(axis=1)).max()
-
-
-def test_survey_is_the_grid_of_the_fitness(declared):
-    job, measure, box = declared
-    grid = survey(job, measure, box)
-    some = np.random.default_rng(5).choice(len(grid.points), 100, replace=False)
-    assert (job.placement(measure.reading())(grid.points[some]) == grid.fitness[some]).all()
-    assert ((grid.fitness > 0) == (grid.status == 0)).all()
-
-
-def test_derivative_of_periodic_samples():
-    for count in (24, 25):
-        angle = 2 * np.pi * np.arange(count) / count
-        values = np.column_stack([np.sin(3 * angle), np.cos(angle) + 2])
-        expected = np.column_stack([3 * np.cos(3 * angle), -np.sin(angle)])
-        assert abs(periodic_derivative(values) - expected).max() < 1e-12
 
 
 @pytest.mark.parametrize("study", STUDIES, ids=lambda study: study.name)
@@ -140,17 +120,6 @@ def test_shoulder_height_moves_the_optimum_up_one_to_one(registry):
     nominal = table[table["assumption"] == "none"].iloc[0]
     rows = table[table["assumption"] == "shoulder_height"]
     rows = rows[rows["value"].astype(float) > 0.45]
-    shift = rows["value"].astype(float) - nominal_values()["shoulder_height"]
+    shift = rows["value"].astype(float) - REGISTRY.nominal("pan")["shoulder_height"]
     assert len(rows) > 1
     assert np.allclose(rows["z"] - nominal["z"], shift, atol=2e-3)
-
-
-def test_round_off_does_not_choose_between_mirror_images():
-    left, right = (np.array([x, 0.1, 0.2]) for x in (-0.2, 0.2))
-    for nearly in (1.0 - 1e-14, 1.0, 1.0 + 1e-14):
-        ends = [Optimum(left, 1.0, 3), Optimum(right, nearly, 4), Optimum(left, 0.9, 5)]
-        for order in (ends, ends[::-1]):
-            best = _first_of_equals(order)
-            assert best.position.tolist() == right.tolist()
-            assert best.evaluations == 12
-    assert _first_of_equals([Optimum(left, 1.0, 1), Optimum(right, 0.999, 1)]).position[0] < 0

@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
-from dualarm_repro.papers.pan.fit import distance, loss
-from dualarm_repro.papers.pan.ga_trace import first_stop
-from dualarm_repro.papers.pan.nominal import nominal_values
-from dualarm_repro.papers.pan.optimum import survey
-from dualarm_repro.papers.pan.positions import search_box
-from dualarm_repro.papers.pan.problem import constraint_disagreements
-from dualarm_repro.papers.pan.result import fitted
-from dualarm_repro.papers.pan.scenario import Job, Measure
-from dualarm_repro.papers.pan.search_steps import (
+from dualarm_repro.papers.pan.pages.optimum.printed_point import fitted
+from dualarm_repro.papers.pan.pages.optimum.problem import constraint_disagreements
+from dualarm_repro.papers.pan.pages.search.algorithm import (
     declared_trace,
     seen_inputs,
     seen_steps,
     seen_stops,
 )
+from dualarm_repro.papers.pan.reading import Problem, surveyed
+from dualarm_repro.papers.pan.studies.fit import distance, loss
 from dualarm_repro.welding import Status
 
 #: A region out of reach of every robot.
@@ -82,15 +78,6 @@ def test_objective_of_the_carriers_alone_is_not_the_printed_one(registry):
     assert found.verdict is Verdict.NOT_REPRODUCED
 
 
-def test_first_stop():
-    rising, resting = np.linspace(1, 2, 40), np.ones(40)
-    assert first_stop(rising, 30, 1e-6) == (30, "generations")
-    assert first_stop(resting, 30, 1e-6) == (10, "stall")
-    assert first_stop(resting, 5, 1e-6) == (5, "generations")
-    assert first_stop(rising[:5], 30, 1e-6) == (5, "none")
-    assert first_stop(np.zeros(40), 30, 1e-6) == (30, "generations")
-
-
 def test_trace_shows_what_the_run_did(trace):
     _, crossed, mutants = trace.settings.counts
     assert trace.order[0] == "initialise"
@@ -109,9 +96,8 @@ def test_steps_that_are_not_run_are_not_seen(trace):
 
 
 def test_a_wrong_status_is_found(registry):
-    values = nominal_values()
-    job, box = Job.of(values), search_box(values)
-    grid = survey(job, Measure.of(values), box)
-    assert constraint_disagreements(job, grid.points, grid.status, np.array(box)) == 0
-    swapped = np.where(grid.status == Status.COLLISION, Status.FEASIBLE, Status.COLLISION)
-    assert constraint_disagreements(job, grid.points, swapped, np.array(box)) > 0
+    declared = Problem.of(REGISTRY.nominal("pan"))
+    status = surveyed(declared).status
+    assert constraint_disagreements(declared, status) == 0
+    swapped = np.where(status == Status.COLLISION, Status.FEASIBLE, Status.COLLISION)
+    assert constraint_disagreements(declared, swapped) > 0

@@ -1,21 +1,24 @@
-"""Equations (9)-(16) of `pan`: manipulability of one robot, of the carriers, of all three."""
+"""Equations (9)-(15) of `pan`: manipulability of one robot and of both carriers together."""
 
 from __future__ import annotations
 
 from functools import partial
 
 import numpy as np
+import pinocchio as pin
+from scipy.linalg import block_diag
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
-from ...welding import closed_form
-from ...welding.ellipsoid import gram_matrices
-from ...welding.manipulability import tight_measure
-from .print_forms import block_matrix, block_residual, printed_text, residual, value, worst
-from .scenario import SEED, stand_in
+from .....arms import Arm
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
+from .....welding import closed_form
+from .....welding.ellipsoid import gram_matrices
+from .....welding.manipulability import tight_measure
+from .....welding.motion import flange_twist
+from ...document import SEED, stand_in
+from ...print_forms import block_matrix, block_residual, printed_text, residual, value, worst
 
 checks = partial(REGISTRY.checks, page="pan/measure")
 _SAMPLES = 500
-_STEP = 1e-6
 
 
 @checks(
@@ -26,7 +29,7 @@ def differential_kinematics(assumed: Assumed) -> Result:
     """The Jacobian against central differences of the pose."""
     arm = stand_in(assumed["arm"])
     cases = [
-        {"x_dot": _flange_twist(arm, q, qd), "J": arm.jacobian(q), "q_dot": qd}
+        {"x_dot": flange_twist(arm, q, qd), "J": arm.jacobian(q), "q_dot": qd}
         for q, qd in _motions(arm, 100)
     ]
     largest = worst(printed_text("pan.eq09"), cases)
@@ -126,8 +129,8 @@ def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
     arm = stand_in(assumed["arm"])
     (q1, qd1), (q2, qd2) = _motions(arm, 2)
-    J = _block(arm.jacobian(q1), arm.jacobian(q2))
-    measured = np.concatenate([_flange_twist(arm, q1, qd1), _flange_twist(arm, q2, qd2)])
+    J = block_diag(arm.jacobian(q1), arm.jacobian(q2))
+    measured = np.concatenate([flange_twist(arm, q1, qd1), flange_twist(arm, q2, qd2)])
     given = {"X_dot": measured, "J": J, "Q_dot": np.concatenate([qd1, qd2])}
     difference = residual(printed_text("pan.eq12"), given)
     return Result(
@@ -195,8 +198,6 @@ def stacked_sizes(assumed: Assumed) -> Result:
 )
 def generalized_jacobian(assumed: Assumed) -> Result:
     """Block-diagonal Jacobian of two arms, from a model that holds both."""
-    import pinocchio as pin
-
     arm = stand_in(assumed["arm"])
     both = pin.Model()
     for k in range(2):
@@ -237,7 +238,7 @@ def pair_measure(assumed: Assumed) -> Result:
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     q1, q2 = arm.random_configurations(_SAMPLES, rng), arm.random_configurations(_SAMPLES, rng)
     J1, J2 = arm.jacobian(q1), arm.jacobian(q2)
-    blocks = [_block(a, b) for a, b in zip(J1, J2, strict=True)]
+    blocks = [block_diag(a, b) for a, b in zip(J1, J2, strict=True)]
     whole = np.array([abs(np.linalg.det(J)) for J in blocks])
     product = tight_measure(closed_form(arm, q1), closed_form(arm, q2))
     cases = [
@@ -255,28 +256,11 @@ def pair_measure(assumed: Assumed) -> Result:
     )
 
 
-def _motions(arm: object, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+def _motions(arm: Arm, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
     """Random configurations with joint velocities of length one."""
     rng = np.random.default_rng(SEED)
     q = arm.random_configurations(count, rng)
     return list(zip(q, _unit(rng.normal(size=q.shape)), strict=True))
-
-
-def _flange_twist(arm: object, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    """Twist of the flange by central differences of its pose."""
-    import pinocchio as pin
-
-    ahead, behind = (arm.fk(q + sign * _STEP * qd) for sign in (1, -1))
-    v = (ahead[:3, 3] - behind[:3, 3]) / (2 * _STEP)
-    return np.concatenate([v, pin.log3(ahead[:3, :3] @ behind[:3, :3].T) / (2 * _STEP)])
-
-
-def _block(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """diag(J_1, J_2)."""
-    whole = np.zeros((len(first) + len(second), first.shape[1] + second.shape[1]))
-    whole[: len(first), : first.shape[1]] = first
-    whole[len(first) :, first.shape[1] :] = second
-    return whole
 
 
 def _size(entry: dict[str, str], m: int, n: int) -> tuple[int, int]:

@@ -9,25 +9,21 @@ from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
-from ...view.diagrams import loop_chart
-from ...view.search_plots import history_figure
-from ...welding import genetic
-from .evolution import stored_runs
-from .ga_trace import Trace, first_stop, traced
-from .nominal import nominal_values
-from .positions import search_box
-from .scenario import Genetic, Job, Measure
-from .studies import RUNS, VARIANTS
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from .....view.diagrams import loop_chart
+from .....view.search_plots import history_figure
+from .....welding import Trace, genetic
+from .....welding.watched import first_stop
+from ...reading import Genetic, Problem, traced
+from ...studies.evolution import RUNS, VARIANTS, stored_runs
 
 checks = partial(REGISTRY.checks, page="pan/search")
 
 
 def declared_trace(**changes: Any) -> Trace:
     """One run on the declared problem, some settings of the search changed, watched."""
-    values = nominal_values()
-    settings = replace(Genetic.of(values), **changes)
-    return traced(Job.of(values), Measure.of(values), settings, search_box(values))
+    values = REGISTRY.nominal("pan")
+    return traced(Problem.of(values), replace(Genetic.of(values), **changes))
 
 
 @checks(
@@ -116,7 +112,7 @@ def seen_stops(traces: Sequence[Trace]) -> list[str]:
 )
 def two_stop_rules(assumed: Assumed) -> Result:
     """Where each stored run ended, and where the printed rules say it has to."""
-    settings = Genetic.of(nominal_values()).settings()
+    settings = Genetic.of(REGISTRY.nominal("pan")).settings()
     other, ends = 0, {}
     for variant, changes in VARIANTS.items():
         runs = stored_runs(RUNS, variant)

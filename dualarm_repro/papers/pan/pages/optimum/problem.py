@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...errors import DataFileError
-from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
-from ...view.landscape import slices_figure
-from ...welding import ROBOTS, Cell, Jobs, Placement, Separation, Status
-from ..wording import point
-from .optimum import SPACING, measures_at, solved, survey
-from .positions import found_optimum, search_box
-from .print_forms import holds, printed_text, value
-from .scenario import Job, Measure, printed_optimum
+from .....errors import DataFileError
+from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....view.landscape import slices_figure
+from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
+from .....welding.motion import smallest_rank
+from ....wording import point
+from ...document import printed_optimum
+from ...print_forms import holds, printed_text, value
+from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, surveyed
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 _CONSTRAINTS = {
@@ -27,8 +27,6 @@ _CONSTRAINTS = {
     "no collision": (Status.COLLISION,),
     "inside the common workspace": (Status.OUT_OF_REACH,),
 }
-#: How much denser than the seam that is searched the constraints are tested.
-_DENSER = 10
 _SAME = 1e-12
 _TESTED = 24  # positions of each status
 
@@ -52,17 +50,15 @@ _TESTED = 24  # positions of each status
 )
 def problem(assumed: Assumed) -> Result:
     """Feasible set and maximum of the declared problem, against what is printed."""
-    job, measure, best = found_optimum(assumed)
+    task = Problem.of(assumed)
+    placement, grid, bounds, best = task.placement(), surveyed(task), task.box, optimum(task)
     if not best.fitness:
-        return _nothing_feasible("variables", "objective_is_printed", "disagreements", "better")
-    box = search_box(assumed)
-    placement, grid = job.placement(measure.reading()), survey(job, measure, box)
+        return nothing_feasible("variables", "objective_is_printed", "disagreements", "better")
     second = grid.points + 0.5 * SPACING
-    values = placement(second[(second <= np.array(box)[:, 1]).all(axis=1)])
-    gap = _objective_gap(job, measure, best)
+    values = placement(second[(second <= bounds[:, 1]).all(axis=1)])
+    gap = _objective_gap(task, best)
     better = int((values > best.fitness * (1 + 1e-9)).sum())
-    disagreements = constraint_disagreements(job, grid.points, grid.status, np.array(box))
-    bounds = np.array(box)
+    disagreements = constraint_disagreements(task, grid.status)
     edge = float(np.minimum(best.position - bounds[:, 0], bounds[:, 1] - best.position).min())
     share = float((grid.fitness > 0).mean())
     return Result(
@@ -103,15 +99,15 @@ def problem(assumed: Assumed) -> Result:
 )
 def constraints(assumed: Assumed) -> Result:
     """The constraints at the optimum on a denser seam, and what each excludes of the region."""
-    job, measure, best = found_optimum(assumed)
+    task = Problem.of(assumed)
+    best, fine = optimum(task), denser(task.job)
     if not best.fitness:
-        return _nothing_feasible("count", "separation", "joint_margin", "rank", "reached")
-    fine = replace(job, seam_points=_DENSER * round(job.seam_points))
+        return nothing_feasible("count", "separation", "joint_margin", "rank", "reached")
     cell, jobs = fine.cell(), solved(fine, tuple(best.position))
     if not jobs.feasible[0]:  # what is violated then shows on the paths without limits
-        jobs = Placement(cell.unlimited(), measure.reading()).jobs([best.position])
+        jobs = Placement(cell.unlimited(), task.measure.reading()).jobs([best.position])
     reached = bool(np.isfinite(jobs.q).all())
-    status = survey(job, measure, search_box(assumed)).status
+    status = surveyed(task).status
     excluded = {
         name: float(np.isin(status, [int(s) for s in causes]).mean())
         for name, causes in _CONSTRAINTS.items()
@@ -125,7 +121,7 @@ def constraints(assumed: Assumed) -> Result:
             caption="At the optimum some points of a denser seam are out of reach. Tested in turn "
             f"the constraints exclude of the region: {told}.",
         )
-    nearest, margin = _nearest_pairs(cell, jobs), joint_margin(cell, jobs)
+    nearest, margin = _nearest_pairs(cell, jobs), float(np.degrees(joint_margin(cell, jobs)))
     return Result(
         obtained=obtained
         | {
@@ -145,47 +141,28 @@ def constraints(assumed: Assumed) -> Result:
     )
 
 
-def constraint_disagreements(
-    job: Job, points: np.ndarray, status: np.ndarray, box: np.ndarray
-) -> int:
+def constraint_disagreements(task: Problem, status: np.ndarray) -> int:
     """Positions at which the printed constraints, tested on joint paths, contradict the search.
 
+    ``status`` (P,) is that of the points of the survey.
     All must hold where the search finds a position feasible; where it drops one for a collision or
     for joint limits, one of them must fail on the path that leaves limits aside. Singular ones are
     left out: the search keeps a distance from singularities, which full rank does not.
     """
-    cell, wrong = job.cell(), 0
+    cell, points, wrong = task.job.cell(), surveyed(task).points, 0
     printed = printed_text("pan.eq_opt", "subject_to")
     for kind in (Status.FEASIBLE, Status.COLLISION, Status.JOINT_LIMITS):
         chosen = points[status == kind]
         chosen = chosen[:: max(1, len(chosen) // _TESTED)]
-        used = cell.unlimited() if kind is Status.JOINT_LIMITS else cell
-        placement = job.placement()
-        placement.cell = used
+        placement = task.job.placement()
+        placement.cell = cell.unlimited() if kind is Status.JOINT_LIMITS else cell
         for jobs in (placement.jobs([centre]) for centre in chosen):
             if not np.isfinite(jobs.q).all():
                 continue
-            given = _given(cell, jobs, box)
+            given = _given(cell, jobs, task.box)
             met = [_met(text, given) for text in printed]
             wrong += all(met) is not (kind is Status.FEASIBLE)
     return wrong
-
-
-def joint_margin(cell: Cell, jobs: Jobs) -> float:
-    """Smallest margin of a joint path to a limit [deg], negative beyond one."""
-    margins = [
-        np.minimum(jobs.q[0, k] - cell.limits(k)[0], cell.limits(k)[1] - jobs.q[0, k]).min()
-        for k in range(len(ROBOTS))
-    ]
-    return float(np.degrees(min(margins)))
-
-
-def smallest_rank(cell: Cell, jobs: Jobs) -> int:
-    """Smallest rank of the Jacobians along a joint path."""
-    return min(
-        int(np.linalg.matrix_rank(arm.jacobian(q)).min())
-        for arm, q in zip(cell.arms, jobs.q[0], strict=True)
-    )
 
 
 def _given(cell: Cell, jobs: Jobs, box: np.ndarray) -> dict[str, Any]:
@@ -216,26 +193,26 @@ def _met(text: str, given: dict[str, Any]) -> bool:
     """Whether a printed constraint holds; False if it cannot be read."""
     member = re.fullmatch(r"\s*(\w+) in (\w+)\s*", text)
     if member:
-        point, box = given.get(member[1]), given.get(member[2])
-        if (*np.shape(point), 2) != np.shape(box):
+        place, box = (np.asarray(given.get(name)) for name in member.groups())
+        if (*place.shape, 2) != box.shape:
             return False
-        return bool((point >= box[:, 0]).all() and (point <= box[:, 1]).all())
+        return bool((place >= box[:, 0]).all() and (place <= box[:, 1]).all())
     try:
         return holds(text, given)
     except (DataFileError, ValueError, TypeError):
         return False
 
 
-def _objective_gap(job: Job, measure: Measure, best: Any) -> float:
+def _objective_gap(task: Problem, best: Optimum) -> float:
     """Printed objective, aggregated over the seam, less the fitness that was maximised."""
-    found = measures_at(job, measure, best.position)
-    mmr = measures_at(job, replace(measure, objective="mmr"), best.position)
+    found = measures_at(task, best.position)
+    mmr = measures_at(replace(task, measure=replace(task.measure, objective="mmr")), best.position)
     given = {"MMR": mmr.system, "M_tight": found.tight, "M_loose": found.loose}
     try:
         curve = value(printed_text("pan.eq_opt", "maximize"), given)
     except DataFileError:
         return float("inf")
-    return float(abs(measure.reading().aggregate(np.asarray(curve)) - best.fitness))
+    return float(abs(task.measure.reading().aggregate(np.asarray(curve)) - best.fitness))
 
 
 def _nearest_pairs(cell: Cell, jobs: Jobs) -> pd.Series:
@@ -245,7 +222,8 @@ def _nearest_pairs(cell: Cell, jobs: Jobs) -> pd.Series:
     return owners.groupby(level=0).min().sort_values()
 
 
-def _nothing_feasible(*keys: str) -> Result:
+def nothing_feasible(*keys: str) -> Result:
+    """The outcome in a region without a feasible position."""
     return Result(
         obtained=dict.fromkeys(keys),
         caption="No position of the region is feasible, so the problem has no solution.",

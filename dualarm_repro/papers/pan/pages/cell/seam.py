@@ -8,14 +8,13 @@ import numpy as np
 import pandas as pd
 import sympy as sp
 
-from ...errors import DataFileError
-from ...ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
-from ...ledger.formula import parse
-from ...view.pipe_seam import pipes_figure, seam_figure
-from ...welding import WELDER, saddle_seam
-from .coordination import at_display
-from .print_forms import printed_text
-from .scenario import FlatSeam, SeamModel
+from .....errors import DataFileError
+from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.formula import parse
+from .....view.pipe_seam import pipes_figure, seam_figure
+from .....welding import WELDER, saddle_seam
+from ...print_forms import printed_text
+from ...reading import FlatSeam, SeamModel, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
 
@@ -89,12 +88,8 @@ def theta_range(assumed: Assumed) -> Result:
 )
 def workpiece(assumed: Assumed) -> Result:
     """Main pipe and branch."""
-    model, length, branch = (
-        SeamModel.of(assumed),
-        assumed["workpiece_length"],
-        assumed["branch_length"],
-    )
-    seam = model.seam
+    model = SeamModel.of(assumed)
+    length, branch, seam = assumed["workpiece_length"], assumed["branch_length"], model.seam
     return Result(
         obtained={"residual": _residual(model)},
         caption=(

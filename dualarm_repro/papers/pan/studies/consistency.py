@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from itertools import product
 from typing import Any
 
 import numpy as np
 from scipy.stats import qmc
 
-from ...ledger import REGISTRY, Study
-from ...welding import Objective, Placement, Status
-from ...welding.grid_search import best_cells, grid_points, pattern_search
-from .nominal import Declared, nominal_values, plausible
-from .optimum import SPACING, nearer_image
-from .scenario import SEED, Job, printed_optimum
+from ....ledger import REGISTRY, Study
+from ....ledger.assumptions import Chosen, plausible
+from ....welding import Objective, Status, grid_optimum
+from ....welding.grid_search import grid_points
+from ....welding.landscape import nearer_image
+from ....welding.placement import blocks
+from ..document import SEED, printed_optimum
+from ..reading import SPACING, Job
 
 SETS = 256
 SEAM_POINTS = 18
 _TOLERANCE = 0.01  # [m]
-_MIRROR = np.array([-1.0, 1.0, 1.0])
 READINGS = ("inverted", "literal")
 #: Assumptions that are drawn; those left out concern the search or the fineness of the seam.
 VARIED = (
@@ -66,7 +66,7 @@ def cells() -> list[dict[str, Any]]:
     """Every sampled set of assumptions in both readings of the base transform."""
     engine = qmc.Sobol(len(VARIED), scramble=True, rng=np.random.default_rng(SEED))
     sets = [
-        {key: plausible(key, share) for key, share in zip(VARIED, row, strict=True)}
+        {key: plausible(f"pan.{key}", share) for key, share in zip(VARIED, row, strict=True)}
         for row in engine.random(SETS)
     ]
     return [
@@ -81,14 +81,10 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
     Each is the best cell of a grid, refined to one centimetre; of two mirror images as good as each
     other the one nearer to the printed point.
     """
-    values = {**nominal_values(), **settings, "seam_points": SEAM_POINTS}
-    job = Job(**{field.name: values[field.name] for field in fields(Job)})
-    box = np.array(values["search_box"])
-    placement = Placement(job.cell(), Objective())
-    points = grid_points(box, SPACING)
-    blocks = [placement.jobs(block) for block in np.array_split(points, 64)]
-    feasible = np.concatenate([jobs.feasible for jobs in blocks])
-    kept = [jobs.select(jobs.feasible) for jobs in blocks if jobs.feasible.any()]
+    values = {**REGISTRY.nominal("pan"), **settings, "seam_points": SEAM_POINTS}
+    placement, box = Job.of(values).placement(), np.array(values["search_box"])
+    jobs = [placement.jobs(block) for block in blocks(grid_points(box, SPACING))]
+    feasible = np.concatenate([some.feasible for some in jobs])
     at_print = placement.jobs([printed_optimum()])
     row: dict[str, Any] = {
         "feasible_share": float(feasible.mean()),
@@ -97,12 +93,10 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
     for name, objective in OBJECTIVES.items():
         placement.objective = objective
         found = np.full(4, np.nan)
-        if kept:
-            scores = [objective.aggregate(placement.measures(jobs).system) for jobs in kept]
-            centres = np.concatenate([jobs.centres for jobs in kept])
-            start = best_cells(centres, np.concatenate(scores), 1, SPACING)[0]
-            best = pattern_search(placement, start, box, 0.5 * SPACING, _TOLERANCE)
-            best = nearer_image(best, float(placement([best.position * _MIRROR])[0]))
+        if feasible.any():
+            scores = np.concatenate([placement.score(some) for some in jobs])
+            best = grid_optimum(placement, box, SPACING, 1, _TOLERANCE, scores)
+            best = nearer_image(best, placement, printed_optimum())
             found = np.append(best.position, best.fitness)
         row |= {f"{name} {part}": float(v) for part, v in zip("xyzf", found, strict=True)}
     return row
@@ -114,6 +108,8 @@ CONSISTENCY = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Declared((*VARIED, "search_box", "singularity_threshold", "torch_exemption")),
+    settings=Chosen(
+        "pan", (*VARIED, "search_box", "singularity_threshold", "torch_exemption"), ranges=True
+    ),
 )
 REGISTRY.keeps(CONSISTENCY)

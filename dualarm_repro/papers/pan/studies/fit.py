@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
-from ...ledger import REGISTRY, Study
-from .nominal import Declared, nominal_values
-from .optimum import optimum, solved
-from .scenario import SEED, Job, Measure, printed_optimum
+from ....ledger import REGISTRY, Study
+from ....ledger.assumptions import Chosen
+from ..document import SEED, printed_optimum
+from ..reading import Job, Measure, Problem, optimum, solved
 
 STARTS, DRAWS, EVALUATIONS = 4, 48, 320
 _COARSE = 18  # seam points while searching
@@ -71,33 +70,27 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
 
 def distance(values: Mapping[str, Any], seam_points: int | None = None) -> float:
     """From the optimum of changed assumptions to the printed point [m]; infinite without one."""
-    job, measure, box = _problem(values, seam_points)
-    best = optimum(job, measure, box)
+    best = optimum(_problem(values, seam_points))
     gap = float(np.linalg.norm(best.position - printed_optimum()))
     return gap if best.fitness else float("inf")
 
 
 def loss(values: Mapping[str, Any]) -> float:
     """Share of the best measure that the printed point lacks; 1 where it is not feasible."""
-    job, measure, box = _problem(values, None)
-    return loss_at_print(job, measure, optimum(job, measure, box).fitness)
+    return loss_at_print(_problem(values))
 
 
-def loss_at_print(job: Job, measure: Measure, best: float) -> float:
-    """1 - F(C) / F(best), with C as printed."""
-    printed = tuple(printed_optimum())
-    if not best or not solved(job, printed).feasible[0]:
+def loss_at_print(problem: Problem) -> float:
+    """1 - F(C) / F(best), with C as printed; 1 where it is not feasible."""
+    printed, best = tuple(printed_optimum()), optimum(problem).fitness
+    if not best or not solved(problem.job, printed).feasible[0]:
         return 1.0
-    return float(1.0 - job.placement(measure.reading())([printed])[0] / best)
+    return float(1.0 - problem.placement()([printed])[0] / best)
 
 
-def _problem(
-    values: Mapping[str, Any], seam_points: int | None
-) -> tuple[Job, Measure, tuple[tuple[float, float], ...]]:
-    every = {**nominal_values(), **values}
-    if seam_points:
-        every["seam_points"] = seam_points
-    return Job.of(every), Measure.of(every), tuple(map(tuple, every["search_box"]))
+def _problem(values: Mapping[str, Any], seam_points: int | None = None) -> Problem:
+    every = {**REGISTRY.nominal("pan"), **values}
+    return Problem.of(every | {"seam_points": seam_points} if seam_points else every)
 
 
 def _best_draw(
@@ -126,8 +119,8 @@ FIT = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Declared(
-        (*VARIED, *(f.name for f in (*fields(Job), *fields(Measure)) if f.name not in VARIED))
+    settings=Chosen(
+        "pan", tuple(dict.fromkeys((*VARIED, *Job.names(), *Measure.names()))), ranges=True
     ),
     nested=("values",),
 )

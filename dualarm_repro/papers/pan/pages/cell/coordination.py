@@ -1,47 +1,37 @@
-"""Equations (1)-(8) of `pan`: how the robots and the workpiece move together."""
+"""Equations (1)-(8) of `pan`, and Fig. 2: how the robots and the workpiece move together."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
-from ...errors import InputError
-from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result
-from ...welding import ROBOTS, WELDER, Cell, Jobs
-from ..wording import point
-from .optimum import solved
-from .print_forms import block_residual, printed_text, residual, worst
-from .scenario import SEED, FlatSeam, Job
+from .....differences import central_differences
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....view.welding_cell import vectors_figure
+from .....welding import ROBOTS, WELDER, Cell, Jobs, flange_poses, held_poses, torch_tips
+from .....welding.motion import periodic_derivative
+from ....wording import point
+from ...document import SEED
+from ...print_forms import block_residual, printed_text, residual, worst
+from ...reading import SHOWN, FlatSeam, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
-#: Central differences of fourth order.
-_STEP, _STENCIL = 1e-3, {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}
 #: Samples of the turn for derivatives by Fourier transform.
 _FINE = 1440
 
 
-def at_display(assumed: Mapping[str, Any]) -> tuple[Cell, Jobs, np.ndarray]:
-    """The cell and its job at the position used where any would do.
-
-    Raises
-    ------
-    InputError
-        A robot has no joint path there.
-    """
-    job, centre = Job.of(assumed), tuple(assumed["display_position"])
-    jobs = solved(job, centre)
-    if not np.isfinite(jobs.q).all():
-        expected = "a position at which every robot has a joint path"
-        raise InputError("pan", "display_position", centre, expected)
-    return job.cell(), jobs, np.array(centre)
+def grips(cell: Cell, jobs: Jobs, robot: int, centre: np.ndarray) -> np.ndarray:
+    """r = R_wc^T (p - C): from the workpiece to the flange, in the workpiece frame (N, 3) [m]."""
+    flange = flange_poses(cell, jobs, robot)[:, :3, 3]
+    return np.einsum("nji,nj->ni", cell.rotations, flange - centre)
 
 
-def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
-    """Poses of a flange in the world by forward kinematics of its joint path (N, 4, 4)."""
-    return cell.bases[robot] @ cell.arms[robot].fk(jobs.q[0, robot])
+def grip_change(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
+    """Largest change of the grips of both carriers along the job [m]."""
+    found = [grips(cell, jobs, robot, centre) for robot in range(WELDER)]
+    return max(float(abs(r - r[0]).max()) for r in found)
 
 
 @checks(
@@ -50,16 +40,11 @@ def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
 )
 def tight_coordination(assumed: Assumed) -> Result:
     """Twists at two points of one rigid body, against central differences of a screw motion."""
-    import pinocchio as pin
-
     rng, cases = np.random.default_rng(SEED), []
     for _ in range(100):
         body = pin.SE3(pin.exp3(rng.normal(size=3)), rng.normal(size=3))
         arms, twist = rng.normal(size=(2, 3)), rng.normal(size=6)
-        velocities = np.zeros((2, 3))
-        for step, weight in _STENCIL.items():
-            moved = body * pin.exp6(pin.Motion(step * _STEP * twist))
-            velocities += weight / _STEP * np.array([moved.act(r) for r in arms])
+        velocities = _screw_velocities(body, twist, arms)
         turn = body.rotation @ twist[3:]
         first, second = (np.concatenate([v, turn]) for v in velocities)
         J = np.eye(6)
@@ -101,7 +86,7 @@ def loose_coordination(assumed: Assumed) -> Result:
     for n in range(0, _FINE, 10):
         lever = R[n] @ seam.points[n]
         J = np.eye(6)
-        J[:3, 3:] = -_skew(lever)
+        J[:3, 3:] = -pin.skew(lever)
         omega = np.array([turning[n, 2, 1], turning[n, 0, 2], turning[n, 1, 0]])
         cases.append(
             {
@@ -164,6 +149,31 @@ def workpiece_pose(assumed: Assumed) -> Result:
     )
 
 
+@checks(
+    "pan.fig02",
+    rules=[
+        Residual("closure", "p2 + R r - p closes for both carriers, to [m]", high=1e-9),
+        NoOriginal("drawing", "the drawing"),
+    ],
+)
+def position_vectors(assumed: Assumed) -> Result:
+    """Frames and the vectors of (4) and (5)."""
+    cell, jobs, centre = at_display(assumed)
+    index = SHOWN[assumed["display_configuration"]]
+    r = np.einsum("ji,kj->ki", cell.rotations[index], cell.flanges[:WELDER, index, :3, 3])
+    return Result(
+        obtained={"closure": grip_change(cell, jobs, centre), "r": r.tolist()},
+        caption=(
+            "World, base and workpiece frames with the vectors of (4) and (5). By these "
+            "equations p2 leads to the workpiece and p1, p3 to the flanges of the two carriers, "
+            f"so the indices do not count robots. The grips are {np.linalg.norm(r[0]):.3f} "
+            f"and {np.linalg.norm(r[1]):.3f} m from the origin of the workpiece."
+        ),
+        alt="Coordinate frames joined by arrows from the world to workpiece and flanges.",
+        figure=lambda: vectors_figure(cell, jobs.q[0], centre),
+    )
+
+
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
     @checks(
         item,
@@ -172,15 +182,12 @@ def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
         flange = flange_poses(cell, jobs, robot)[:, :3, 3]
-        r = np.einsum("nji,nj->ni", cell.rotations, flange - centre)
-        text = printed_text(item)
-        largest = worst(
-            text,
-            [
-                {"p_2": centre, "R_wc": R, names[0]: r[0], names[1]: end}
-                for R, end in zip(cell.rotations, flange, strict=True)
-            ],
-        )
+        r = grips(cell, jobs, robot, centre)
+        cases = [
+            {"p_2": centre, "R_wc": R, names[0]: r[0], names[1]: end}
+            for R, end in zip(cell.rotations, flange, strict=True)
+        ]
+        largest = worst(printed_text(item), cases)
         return Result(
             obtained={"residual": largest, "r": r[0].tolist()},
             caption=(
@@ -296,36 +303,16 @@ def no_relative_motion(assumed: Assumed) -> Result:
     )
 
 
-def periodic_derivative(values: np.ndarray) -> np.ndarray:
-    """d/dtheta of samples over one full turn along the first axis, by Fourier transform."""
-    count = len(values)
-    order = np.fft.rfftfreq(count, 1.0 / count)
-    if count % 2 == 0:
-        order[-1] = 0.0  # the derivative of the highest cosine vanishes at the samples
-    spectrum = np.fft.rfft(values, axis=0)
-    factor = (1j * order).reshape(-1, *[1] * (values.ndim - 1))
-    return np.fft.irfft(factor * spectrum, n=count, axis=0)
-
-
-def torch_tips(cell: Cell, jobs: Jobs) -> np.ndarray:
-    """Tip of the torch in the world by forward kinematics of the welder (N, 3)."""
-    flange = flange_poses(cell, jobs, WELDER)
-    fixed = cell.flanges[WELDER]
-    lever = np.einsum("nji,nj->ni", fixed[:, :3, :3], cell.lever_arms[WELDER])[0]
-    return flange[:, :3, :3] @ lever + flange[:, :3, 3]
-
-
-def held_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
-    """Pose of the workpiece (N, 4, 4) that a carrier's joint path and its grasp give."""
-    local = cell.flanges[robot][0].copy()
-    local[:3] = cell.rotations[0].T @ local[:3]
-    return flange_poses(cell, jobs, robot) @ np.linalg.inv(local)
-
-
 def _lifted(points: np.ndarray) -> np.ndarray:
     """Points (N, 3) in homogeneous coordinates (N, 4)."""
     return np.column_stack([points, np.ones(len(points))])
 
 
-def _skew(v: np.ndarray) -> np.ndarray:
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+def _screw_velocities(body: pin.SE3, twist: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Velocities (K, 3) of points fixed in a body that moves by a screw, by differences."""
+
+    def places(time: np.ndarray) -> list[np.ndarray]:
+        moved = body * pin.exp6(pin.Motion(time[0] * twist))
+        return [moved.act(point) for point in points]
+
+    return central_differences(places, [0.0])[0]

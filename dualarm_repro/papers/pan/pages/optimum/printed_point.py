@@ -1,4 +1,4 @@
-"""The optimum of `pan` against the printed point, and Figs 16 and 17."""
+"""The optimum of `pan` against the printed point, and what it depends on."""
 
 from __future__ import annotations
 
@@ -8,21 +8,20 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.stats import binomtest
 
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from ...tracking import memo
-from ...view.landscape import readings_figure
-from ...view.seam_curves import joints_figure, measures_figure
-from ...welding import ROBOTS, Cell, Jobs, Placement
-from ..wording import point
-from .consistency import CONSISTENCY, OBJECTIVES, READINGS
-from .coordination import flange_poses
-from .fit import FIT, loss_at_print
-from .optimum import solved
-from .positions import at_optimum, found_optimum, job_scene_at, status_name
-from .problem import joint_margin
-from .scenario import printed_optimum
+from .....ledger import REGISTRY, Assumed, Bounded, Result
+from .....ledger.shares import Share
+from .....tracking import memo
+from .....view.card import figure_html
+from .....view.landscape import readings_figure, sensitivity_figure
+from .....view.page import Page
+from .....welding import Placement
+from ....wording import point
+from ...document import printed_optimum
+from ...reading import Problem, job_scene_at, optimum, solved, status_name
+from ...studies.consistency import CONSISTENCY, OBJECTIVES, READINGS
+from ...studies.fit import FIT, loss_at_print
+from ...studies.sensitivity import sensitivity_table
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 _NEAR, _FAR = 0.10, 0.15  # [m]
@@ -42,11 +41,11 @@ _LABELS = {"inverted": "matrix as pose of the base", "literal": "matrix as label
 )
 def printed_point(assumed: Assumed) -> Result:
     """Distance of the optimum to the printed point, and choices that bring it there."""
-    job, measure, best = found_optimum(assumed)
-    printed = printed_optimum()
+    problem, printed = Problem.of(assumed), printed_optimum()
+    best = optimum(problem)
     distance = float(np.linalg.norm(best.position - printed)) if best.fitness else None
-    lost = loss_at_print(job, measure, best.fitness)
-    at_print = solved(job, tuple(printed))
+    lost = loss_at_print(problem)
+    at_print = solved(problem.job, tuple(printed))
     table = reading_table()
     near, far = (table[[f"{reading} {radius}" for reading in READINGS]] for radius in (_NEAR, _FAR))
     shares = far.set_axis([_LABELS[reading] for reading in READINGS], axis=1)
@@ -56,8 +55,8 @@ def printed_point(assumed: Assumed) -> Result:
         for column in shares
     )
     sets = len(CONSISTENCY.load()) // len(READINGS)
-    cell = job.cell().unlimited()
-    unlimited = Placement(cell, measure.reading()).jobs([printed])
+    cell = problem.job.cell().unlimited()
+    unlimited = Placement(cell, problem.measure.reading()).jobs([printed])
     witnesses = fitted()
     return Result(
         obtained={
@@ -131,93 +130,6 @@ def _told_fit(witnesses: list[dict[str, Any]]) -> str:
     )
 
 
-@checks(
-    "pan.fig16",
-    rules=[
-        Residual(
-            "aggregated",
-            "the drawn system measure, aggregated, and the fitness of the optimum differ by",
-            high=1e-12,
-        ),
-        NoOriginal("values", "values of the curves"),
-    ],
-)
-def optimal_curves(assumed: Assumed) -> Result:
-    """Measures along the seam at the optimum."""
-    _, measure, best = found_optimum(assumed)
-    _, jobs, _, measures = at_optimum(assumed)
-    w = jobs.w[0]
-    return Result(
-        obtained={
-            "aggregated": float(abs(measure.reading().aggregate(measures.system) - best.fitness)),
-            "smallest": float(w.min()),
-            "range": [float(measures.system.min()), float(measures.system.max())],
-        },
-        table=curve_table(w, measures.system, assumed["time_axis"]),
-        caption=(
-            f"At the optimum the system measure stays between {measures.system.min():.3f} and "
-            f"{measures.system.max():.3f}; the welder's lies between {w[2].min():.3f} and "
-            f"{w[2].max():.3f} m^3, since in the flat position it hardly moves. Values of the "
-            "printed curves are not known, nor which measures they show."
-        ),
-        alt="Manipulability of three robots and of the system along the seam, well above zero.",
-        figure=lambda: measures_figure({"at the optimum": (w, measures)}),
-    )
-
-
-@checks(
-    "pan.fig17",
-    rules=[
-        Residual(
-            "carried",
-            "flange poses of the drawn joint angles and those of the job differ by",
-            high=1e-9,
-        ),
-        Bounded("turns", "full turns by which a joint fails to come back", high=0.0),
-        NoOriginal("values", "values of the curves"),
-    ],
-)
-def joint_curves(assumed: Assumed) -> Result:
-    """Joint angles along the seam at the optimum."""
-    cell, jobs, centre, _ = at_optimum(assumed)
-    q = jobs.q[0]
-    closing = q[:, -1] + np.round((q[:, 0] - q[:, -1]) / (2 * np.pi)) * 2 * np.pi
-    span = np.degrees(np.ptp(q, axis=1))
-    columns = {
-        f"{name} q{j + 1}": np.degrees(q[k, :, j])
-        for k, name in enumerate(ROBOTS)
-        for j in range(6)
-    }
-    margin = joint_margin(cell, jobs)
-    return Result(
-        obtained={
-            "carried": _carried(cell, jobs, centre),
-            "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
-            "joint_margin": margin,
-            "span_deg": span.tolist(),
-            "branches": jobs.branch[0].tolist(),
-        },
-        table=pd.DataFrame(columns).rename_axis(assumed["time_axis"]).reset_index(),
-        caption=(
-            "Joint paths at the optimum, each on one branch, closed after one turn and at least "
-            f"{margin:.1f} deg within limits. The carriers' joints sweep up to "
-            f"{span[:2].max():.0f} deg, the welder's {span[2, :5].max():.0f} deg."
-        ),
-        alt="Six joint angles of each of three robots along the seam, smooth and periodic.",
-        figure=lambda: joints_figure(cell, q),
-    )
-
-
-def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
-    """Largest difference of the flange poses by forward kinematics to those of the job."""
-    worst = 0.0
-    for robot in range(len(ROBOTS)):
-        wanted = cell.flanges[robot].copy()
-        wanted[:, :3, 3] += centre
-        worst = max(worst, float(abs(flange_poses(cell, jobs, robot) - wanted).max()))
-    return worst
-
-
 @memo()
 def reading_table() -> pd.DataFrame:
     """Share of optima near the printed point for every objective (rows) and reading of the bases.
@@ -235,9 +147,7 @@ def reading_table() -> pd.DataFrame:
             distance = np.linalg.norm(points - printed, axis=1)
             for radius in (_NEAR, _FAR):
                 row[f"{reading} {radius}"] = float((distance <= radius).mean())
-            hits = int((distance <= _FAR).sum())
-            interval = binomtest(hits, len(distance)).proportion_ci(method="wilson")
-            row[f"{reading} upper"] = float(interval.high)
+            row[f"{reading} upper"] = Share.of((distance <= _FAR).sum(), len(distance)).high
         rows[name] = row
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("objective")
 
@@ -253,7 +163,24 @@ def _clouds() -> list[tuple[str, np.ndarray]]:
     return clouds
 
 
-def curve_table(w: np.ndarray, system: np.ndarray, axis: str) -> pd.DataFrame:
-    """Manipulabilities of the robots and the system measure against the seam point."""
-    columns = {f"{name}_m3": values for name, values in zip(ROBOTS, w, strict=True)}
-    return pd.DataFrame({**columns, "system": system}).rename_axis(axis).reset_index()
+def sensitivities() -> Page:
+    """The figure of the one-at-a-time study, for a page of the book."""
+    table = sensitivity_table()
+    nominal = table.loc[table["assumption"] == "none", ["x", "y", "z"]].to_numpy()[0]
+    changed = table[table["assumption"] != "none"]
+    largest: pd.Series = changed.groupby("assumption")["moved"].max().sort_values(ascending=False)
+    ordered = changed.set_index("assumption").loc[largest.index].reset_index()
+    still = [name for name, moved in largest.items() if moved < 0.005]
+    infeasible = int(changed["fitness"].eq(0).sum())
+    leading = ", ".join(
+        f"{str(name).replace('_', ' ')} ({moved:.2f} m)" for name, moved in largest.head(4).items()
+    )
+    caption = (
+        "Optimum when one assumption at a time takes other plausible values. It moves most with "
+        f"{leading}. It does not move with "
+        f"{', '.join(str(name).replace('_', ' ') for name in still) or 'none'}. {infeasible} of "
+        f"{len(changed)} changes leave no feasible position."
+    )
+    alt = "Three panels with the coordinates of the optimum, one row for each assumption."
+    figure = sensitivity_figure(ordered, nominal, printed_optimum())
+    return Page(f'<div class="ledger-item">{figure_html(figure, alt, caption)}</div>')

@@ -1,18 +1,16 @@
-"""A genetic run watched step by step, and what its states show of the printed steps."""
+"""A genetic run watched act by act: what its states show, and where stop rules first hold."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ...tracking import memo
-from ...welding import Jobs, Measures, Placement, genetic
-from .optimum import Box
-from .scenario import SEED, Genetic, Job, Measure
-
-#: Averaging length of the second stop rule, which the text leaves open.
-_WINDOW = genetic.Settings().stall_generations
+from . import genetic
+from .genetic import Generation, GeneticSettings, Search
+from .objective import Measures
+from .placement import Jobs, Placement
 
 
 @dataclass
@@ -37,7 +35,7 @@ class Trace:
         Share of the parents that were infeasible, by generation.
     """
 
-    settings: genetic.Settings
+    settings: GeneticSettings
     order: list[str] = field(default_factory=list)
     evaluated: list[int] = field(default_factory=list)
     tested: int = 0
@@ -48,23 +46,27 @@ class Trace:
     mutated: list[int] = field(default_factory=list)
     infeasible_passed_on: int = 0
     infeasible_parents: list[float] = field(default_factory=list)
-    history: list[genetic.Generation] = field(default_factory=list)
+    history: list[Generation] = field(default_factory=list)
     reason: str = ""
 
 
-@memo(8)
-def traced(job: Job, measure: Measure, setting: Genetic, box: Box) -> Trace:
-    """One run of the search, its state looked at before and after every act."""
-    settings = setting.settings()
+def watch(
+    placement: Placement, box: np.ndarray, settings: GeneticSettings, rng: np.random.Generator
+) -> Trace:
+    """One run of the search, the state looked at before and after every act.
+
+    Arguments as in :func:`.genetic.evolve`, which gives the same run.
+    """
     trace, asked = Trace(settings), []
-    placement = _watched(job.placement(measure.reading()), trace)
+    watched = _Watched(placement.cell, placement.objective)
+    watched.trace = trace
 
     def fitness(points: np.ndarray) -> np.ndarray:
         asked.append(len(points))
-        return placement(points)
+        return watched(points)
 
-    low, high = np.array(box).T
-    search = genetic.Search(fitness, low, high, settings, np.random.default_rng(SEED))
+    low, high = genetic.checked_box(box).T
+    search = Search(fitness, low, high, settings, rng)
     genetic.initialise(search)
     trace.order.append(genetic.initialise.__name__)
     while search.reason is None:
@@ -86,9 +88,12 @@ def traced(job: Job, measure: Measure, setting: Genetic, box: Box) -> Trace:
 
 
 def first_stop(
-    means: np.ndarray, generations: int, smallest: float, window: int = _WINDOW
+    means: np.ndarray,
+    generations: int,
+    smallest: float,
+    window: int = GeneticSettings.stall_generations,
 ) -> tuple[int, str]:
-    """Generation at which a run has to end by the two printed rules, and by which.
+    """Generation at which a run has to end, and by which rule (``none``: by neither).
 
     Generation limit reached, or a mean fitness whose change from one generation to the next is, on
     average over a window, at most the smallest relative change.
@@ -108,24 +113,23 @@ def first_stop(
     return len(means), "none"
 
 
-def _watched(placement: Placement, trace: Trace) -> Placement:
-    """The placement, whose tests of constraints and whose measures are noted."""
-    solve, measure = placement.jobs, placement.measures
+@dataclass(eq=False)
+class _Watched(Placement):
+    """A placement whose tests of constraints and whose measures are noted."""
 
-    def jobs(centres: np.ndarray) -> Jobs:
-        trace.order.append("constraints")
-        found = solve(centres)
-        trace.tested += len(found.status)
-        trace.met += int(found.feasible.sum())
+    trace: Trace = field(init=False)
+
+    def jobs(self, centres: ArrayLike) -> Jobs:
+        self.trace.order.append("constraints")
+        found = super().jobs(centres)
+        self.trace.tested += len(found.status)
+        self.trace.met += int(found.feasible.sum())
         return found
 
-    def measures(found: Jobs) -> Measures:
-        trace.order.append("fitness")
-        trace.rated += len(found.status)
-        return measure(found)
-
-    placement.jobs, placement.measures = jobs, measures
-    return placement
+    def measures(self, jobs: Jobs) -> Measures:
+        self.trace.order.append("fitness")
+        self.trace.rated += len(jobs.status)
+        return super().measures(jobs)
 
 
 def _infeasible(parents: np.ndarray, individuals: np.ndarray, values: np.ndarray) -> float:
@@ -135,7 +139,7 @@ def _infeasible(parents: np.ndarray, individuals: np.ndarray, values: np.ndarray
 
 
 def _see_children(
-    trace: Trace, search: genetic.Search, individuals: np.ndarray, values: np.ndarray
+    trace: Trace, search: Search, individuals: np.ndarray, values: np.ndarray
 ) -> None:
     known = {row.tobytes(): value for row, value in zip(individuals, values, strict=True)}
     elite = trace.settings.counts[0]

@@ -1,4 +1,4 @@
-"""Two positions that are not optimal, found by stated rules: Figs 18 and 19 of `pan`."""
+"""Curves along the seam at the optimum of `pan` and at two poor positions: Figs 16-19."""
 
 from __future__ import annotations
 
@@ -7,33 +7,121 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from ...tracking import memo
-from ...view.seam_curves import measures_figure
-from ...welding import WELDER, Cell, Jobs, Measures, closed_form
-from ..wording import point
-from .optimum import measures_at, solved
-from .positions import (
+from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....tracking import memo
+from .....view.seam_curves import joints_figure, measures_figure
+from .....welding import (
+    ROBOTS,
+    WELDER,
+    Cell,
+    Jobs,
+    Measures,
+    closed_form,
+    flange_poses,
+    joint_margin,
+)
+from ....wording import point
+from ...document import SEED, stand_in
+from ...reading import (
+    Measure,
+    Problem,
     at_optimum,
-    extreme_position,
     job_scene_at,
-    search_box,
+    measures_at,
+    optimum,
+    poor_position,
+    solved,
     status_name,
 )
-from .result import curve_table
-from .scenario import SEED, Job, Measure, stand_in
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 #: The position of the lowest welder is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
 
+@checks(
+    "pan.fig16",
+    rules=[
+        Residual(
+            "aggregated",
+            "the drawn system measure, aggregated, and the fitness of the optimum differ by",
+            high=1e-12,
+        ),
+        NoOriginal("values", "values of the curves"),
+    ],
+)
+def optimal_curves(assumed: Assumed) -> Result:
+    """Measures along the seam at the optimum."""
+    problem, (_, jobs, _, measures) = Problem.of(assumed), at_optimum(assumed)
+    aggregated, w = problem.measure.reading().aggregate(measures.system), jobs.w[0]
+    return Result(
+        obtained={
+            "aggregated": float(abs(aggregated - optimum(problem).fitness)),
+            "smallest": float(w.min()),
+            "range": [float(measures.system.min()), float(measures.system.max())],
+        },
+        table=curve_table(w, measures.system, assumed["time_axis"]),
+        caption=(
+            f"At the optimum the system measure stays between {measures.system.min():.3f} and "
+            f"{measures.system.max():.3f}; the welder's lies between {w[2].min():.3f} and "
+            f"{w[2].max():.3f} m^3, since in the flat position it hardly moves. Values of the "
+            "printed curves are not known, nor which measures they show."
+        ),
+        alt="Manipulability of three robots and of the system along the seam, well above zero.",
+        figure=lambda: measures_figure({"at the optimum": (w, measures)}),
+    )
+
+
+@checks(
+    "pan.fig17",
+    rules=[
+        Residual(
+            "carried",
+            "flange poses of the drawn joint angles and those of the job differ by",
+            high=1e-9,
+        ),
+        Bounded("turns", "full turns by which a joint fails to come back", high=0.0),
+        NoOriginal("values", "values of the curves"),
+    ],
+)
+def joint_curves(assumed: Assumed) -> Result:
+    """Joint angles along the seam at the optimum."""
+    cell, jobs, centre, _ = at_optimum(assumed)
+    q = jobs.q[0]
+    closing = q[:, -1] + np.round((q[:, 0] - q[:, -1]) / (2 * np.pi)) * 2 * np.pi
+    span = np.degrees(np.ptp(q, axis=1))
+    columns = {
+        f"{name} q{j + 1}": np.degrees(q[k, :, j])
+        for k, name in enumerate(ROBOTS)
+        for j in range(6)
+    }
+    margin = float(np.degrees(joint_margin(cell, jobs)))
+    return Result(
+        obtained={
+            "carried": _carried(cell, jobs, centre),
+            "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
+            "joint_margin": margin,
+            "span_deg": span.tolist(),
+            "branches": jobs.branch[0].tolist(),
+        },
+        table=pd.DataFrame(columns).rename_axis(assumed["time_axis"]).reset_index(),
+        caption=(
+            "Joint paths at the optimum, each on one branch, closed after one turn and at least "
+            f"{margin:.1f} deg within limits. The carriers' joints sweep up to "
+            f"{span[:2].max():.0f} deg, the welder's {span[2, :5].max():.0f} deg."
+        ),
+        alt="Six joint angles of each of three robots along the seam, smooth and periodic.",
+        figure=lambda: joints_figure(cell, q),
+    )
+
+
 def poor_job(assumed: Mapping[str, Any], rule: str) -> tuple[Cell, Jobs, np.ndarray, Measures]:
     """The job at the position of the stated rule."""
-    job, measure = Job.of(assumed), Measure.of(assumed)
-    centre = extreme_position(job, measure, search_box(assumed), rule).position
-    return job.cell(), solved(job, tuple(centre)), centre, measures_at(job, measure, centre)
+    problem = Problem.of(assumed)
+    job, centre = problem.job, poor_position(problem, rule).position
+    return job.cell(), solved(job, tuple(centre)), centre, measures_at(problem, centre)
 
 
 @memo()
@@ -107,8 +195,8 @@ _poor_figure(
 )
 def near_zero(assumed: Assumed) -> Result:
     """How near to zero the welder stays on the whole seam at the poor position."""
-    job, rule = Job.of(assumed), assumed["poor_position_a"]
-    best = extreme_position(job, _ANY_MEASURE, search_box(assumed), rule)
+    problem = Problem.of(assumed, _ANY_MEASURE)
+    job, best = problem.job, poor_position(problem, assumed["poor_position_a"])
     if not best.fitness:
         return Result(
             obtained={"largest_share": None, "position": None},
@@ -140,14 +228,14 @@ def near_zero(assumed: Assumed) -> Result:
 )
 def unsteady(assumed: Assumed) -> Result:
     """Variation of the system measure at position (b)."""
-    job, measure = Job.of(assumed), Measure.of(assumed)
-    poor = extreme_position(job, measure, search_box(assumed), assumed["poor_position_b"])
+    problem = Problem.of(assumed)
+    poor = poor_position(problem, assumed["poor_position_b"])
     if not poor.fitness:
         return Result(
             obtained={"swing": None, "position": None},
             caption="No position of the region is feasible, so there is no unsteady one either.",
         )
-    system = measures_at(job, measure, poor.position).system
+    system = measures_at(problem, poor.position).system
     swing = float(np.ptp(system) / system.max())
     return Result(
         obtained={"swing": swing, "position": poor.position.tolist()},
@@ -155,9 +243,25 @@ def unsteady(assumed: Assumed) -> Result:
             f"At the least steady position, ({point(poor.position, 3)}) m, the system measure "
             f"loses {swing:.0%} of its maximum along the seam. The text connects this with "
             "unreachable points or collisions; the position found is "
-            f"{status_name(solved(job, tuple(poor.position)))}."
+            f"{status_name(solved(problem.job, tuple(poor.position)))}."
         ),
     )
+
+
+def curve_table(w: np.ndarray, system: np.ndarray, axis: str) -> pd.DataFrame:
+    """Manipulabilities of the robots and the system measure against the seam point."""
+    columns = {f"{name}_m3": values for name, values in zip(ROBOTS, w, strict=True)}
+    return pd.DataFrame({**columns, "system": system}).rename_axis(axis).reset_index()
+
+
+def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
+    """Largest difference of the flange poses by forward kinematics to those of the job."""
+    worst = 0.0
+    for robot in range(len(ROBOTS)):
+        wanted = cell.flanges[robot].copy()
+        wanted[:, :3, 3] += centre
+        worst = max(worst, float(abs(flange_poses(cell, jobs, robot) - wanted).max()))
+    return worst
 
 
 def recomputed(cell: Cell, jobs: Jobs) -> float:

@@ -1,25 +1,26 @@
-"""Equation (16) of `pan` and its weights: the measure of all three robots."""
+"""Equation (16) of `pan`, its weights and Fig. 3: the measure of all three robots."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from ...ledger import REGISTRY, Assumed, Is, Residual, Result, Role
-from ...view.ellipsoids import beta_figure
-from ...welding import Cell, Jobs, Measures
-from ...welding.ellipsoid import (
-    gram_matrices,
+from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result, Role
+from .....view.ellipsoids import beta_figure
+from .....view.welding_cell import cell_figure
+from .....welding import ROBOTS, Measures
+from .....welding.ellipsoid import (
     intersection_volume,
     intersection_volume_monte_carlo,
     unit_ball_volume,
 )
-from .coordination import at_display
-from .optimum import optimum
-from .print_forms import printed_text, value, worst
-from .scenario import SEED, Job, Measure, stand_in
+from .....welding.objective import ROWS, cell_grams
+from ...document import SEED, stand_in
+from ...print_forms import printed_text, value, worst
+from ...reading import SHOWN, Job, Measure, Problem, at_display, optimum
 
 checks = partial(REGISTRY.checks, page="pan/measure")
 _MILLI = 1000.0
@@ -41,16 +42,11 @@ _SAME = 1e-9
 )
 def system_measure(assumed: Assumed) -> Result:
     """The printed weighted mean at one position, and what a change of the unit does to it."""
-    job, measure = Job.of(assumed), Measure.of(assumed)
-    _, jobs, _ = at_display(assumed)
-    found = job.placement(measure.reading()).measures(jobs)
+    problem, (_, jobs, _) = Problem.of(assumed), at_display(assumed)
+    found = problem.placement().measures(jobs)
     gap = worst(printed_text("pan.eq16"), [*_cases(found)])
-    powers = unit_powers(job.arm) if gap < _SAME else {}
-    box = tuple(tuple(side) for side in assumed["search_box"])
-    best = {}
-    for unit in ("m", "mm"):
-        changed = Measure(**{**vars(measure), "length_unit": unit})
-        best[unit] = np.abs(optimum(job, changed, box).position)
+    powers = unit_powers(problem.job.arm) if gap < _SAME else {}
+    best = best_by_unit(problem)
     moved = float(np.linalg.norm(best["m"] - best["mm"]))
     return Result(
         obtained={
@@ -70,6 +66,39 @@ def system_measure(assumed: Assumed) -> Result:
 
 
 @checks(
+    "pan.fig03",
+    rules=[
+        Residual("fits", "extreme velocities lie on the drawn ellipsoids, to", high=1e-8),
+        NoOriginal("drawing", "configuration and scale of the drawing"),
+    ],
+)
+def three_ellipsoids(assumed: Assumed) -> Result:
+    """Velocity ellipsoid of each robot at its reference point."""
+    cell, jobs, centre = at_display(assumed)
+    index, rows = SHOWN[assumed["display_configuration"]], ROWS[assumed["ellipsoid_space"]]
+    whole = cell_grams(cell, jobs.q, rows)[:, index]
+    values, vectors = np.linalg.eigh(whole)
+    extreme = vectors * np.sqrt(values)[:, np.newaxis]
+    fits = float(abs(np.sum(extreme * np.linalg.solve(whole, extreme), axis=1) - 1).max())
+    grams = whole[:, :3, :3]
+    axes = np.sqrt(np.linalg.eigvalsh(grams))[:, ::-1]
+    return Result(
+        obtained={"fits": fits, "semi_axes": axes.tolist()},
+        caption=(
+            "Translational velocity ellipsoids for unit joint velocities, the carriers' at the "
+            "origin of the workpiece and the welder's at the tip of its torch. Longest and "
+            "shortest semi-axes in m/s: "
+            + "; ".join(
+                f"{name} {a[0]:.2f} and {a[2]:.2f}" for name, a in zip(ROBOTS, axes, strict=True)
+            )
+            + ". Neither configuration nor scale of the printed drawing is known."
+        ),
+        alt="Three robots, each with a translucent ellipsoid at the point where it acts.",
+        figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, grams=grams),
+    )
+
+
+@checks(
     "pan.claim_beta_rule",
     rules=[
         Is(
@@ -84,10 +113,10 @@ def weights(assumed: Assumed) -> Result:
     cell, jobs, _ = at_display(assumed)
     measure = Measure.of(assumed).reading()
     used = Job.of(assumed).placement(measure).measures(jobs)
-    grams = _grams(cell, jobs, 3)
+    grams = cell_grams(cell, jobs.q, 3)
     volumes = _volumes(grams)
     common = np.array([intersection_volume(grams[:, n], 2000) for n in range(cell.count)])
-    weighed = _grams(cell, jobs, 6) if measure.space == "full" else grams
+    weighed = cell_grams(cell, jobs.q, 6) if measure.space == "full" else grams
     ratios = common / _volumes(weighed)
     tight = _merged(measure.carriers, ratios, weighed, common)
     by_rule = tight / (tight + ratios[2])
@@ -118,6 +147,13 @@ def weights(assumed: Assumed) -> Result:
         alt="Volumes of three ellipsoids and of their common part, and weights along the seam.",
         figure=lambda: beta_figure(volumes, common, share),
     )
+
+
+def best_by_unit(problem: Problem) -> dict[str, np.ndarray]:
+    """The best position with lengths in metres and in millimetres, mirror images as one [m]."""
+    measures = {unit: replace(problem.measure, length_unit=unit) for unit in ("m", "mm")}
+    found = {unit: optimum(replace(problem, measure=m)) for unit, m in measures.items()}
+    return {unit: np.abs(best.position) for unit, best in found.items()}
 
 
 def unit_powers(arm_name: str) -> dict[str, list[float]]:
@@ -168,18 +204,6 @@ def _told_powers(powers: dict[str, list[float]]) -> str:
 def _cases(found: Measures) -> list[dict[str, float]]:
     names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
     return [dict(zip(names, map(float, row), strict=True)) for row in np.stack(found)[:, 0].T]
-
-
-def _grams(cell: Cell, jobs: Jobs, rows: int) -> np.ndarray:
-    """J J^T of each robot along the seam (3, N, rows, rows)."""
-    return np.stack(
-        [
-            gram_matrices(
-                arm.chain, cell.bases[k][:3, :3].copy(), jobs.q[0, k], cell.lever_arms[k], rows
-            )
-            for k, arm in enumerate(cell.arms)
-        ]
-    )
 
 
 def _volumes(grams: np.ndarray) -> np.ndarray:

@@ -1,0 +1,336 @@
+"""The arms of `pan`, where their bases stand, and the cell at work."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+
+from .....arms import Arm
+from .....arms.wrist_geometry import wrist_geometry
+from .....errors import DataFileError, UnsupportedArmError
+from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.printed import rounds_to
+from .....scene import posing
+from .....view.arm_drawings import frames_figure
+from .....view.welding_cell import capsule_figure, cell_figure
+from .....welding import WELDER, Cell, Jobs, base_poses, closed_form, torch_tips
+from ...document import (
+    BASES,
+    SEED,
+    placed_bases,
+    printed_base_matrix,
+    printed_bases,
+    robot_table,
+    stand_in,
+)
+from ...print_forms import printed_text
+from ...reading import SHOWN, Job, at_display, at_optimum, job_scene_at
+from .coordination import grip_change
+
+checks = partial(REGISTRY.checks, page="pan/cell")
+
+
+@checks(
+    "pan.tab_none",
+    rules=[
+        Is("spherical_wrist", "axes 4, 5 and 6 meet in one point", value=True),
+        NoOriginal("parameters", "parameters and joint limits of the ER16"),
+    ],
+)
+def robot_data(assumed: Assumed) -> Result:
+    """DH parameters and limits of the stand-in arm, with their evidence."""
+    name, height = assumed["arm"], assumed["shoulder_height"]
+    robot, arm = robot_table(name), stand_in(name, height)
+    table = pd.DataFrame(
+        {
+            "joint": [joint.name for joint in robot.joints],
+            "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
+            "a_m": [joint.a for joint in robot.joints],
+            "d_m": [height, *(joint.d for joint in robot.joints[1:])],
+            "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
+            "lower_deg": np.degrees(arm.lower),
+            "upper_deg": np.degrees(arm.upper),
+        }
+    )
+    q = arm.random_configurations(20_000, np.random.default_rng(SEED))
+    return Result(
+        obtained={
+            "spherical_wrist": _has_spherical_wrist(arm),
+            "largest_measure": float(closed_form(arm, q).max()),
+            "evidence": robot.evidence,
+        },
+        table=table,
+        caption=(
+            "The document has no table and prints neither parameters nor limits of its robot. "
+            f"Used instead: {robot.title}. Its evidence: {robot.evidence}"
+        ),
+    )
+
+
+@checks(
+    "pan.fig09",
+    rules=[
+        Residual("axis_error", "each z axis is the one its joint turns about, to", high=1e-12),
+        NoOriginal("parameters", "the Denavit-Hartenberg parameters"),
+    ],
+)
+def link_frames(assumed: Assumed) -> Result:
+    """Link frames of the stand-in arm at q = 0."""
+    arm = stand_in(assumed["arm"])
+    frames = _joint_frames(arm, np.zeros(arm.nq))
+    error = 0.0
+    for k in range(arm.nq):
+        turned = _joint_frames(arm, 0.7 * np.eye(arm.nq)[k])[k]
+        turn = pin.log3(frames[k][:3, :3].T @ turned[:3, :3])
+        error = max(error, float(abs(turn - [0, 0, 0.7]).max()))
+    drawn = np.array([np.eye(4), *frames])
+    return Result(
+        obtained={"axis_error": error, "origins": drawn[:, :3, 3].tolist()},
+        caption=(
+            f"Frames 0 to 6 of the stand-in arm ({arm.name}) at q = 0 in the modified convention. "
+            "The parameters of the ER16 are called known in the document but are not given, so "
+            "the figure cannot be compared."
+        ),
+        alt="Seven coordinate frames along an arm with an upright upper arm and a level forearm.",
+        figure=lambda: frames_figure(drawn, 0.22),
+    )
+
+
+@checks(
+    "pan.fig10",
+    rules=[
+        Bounded("bare", "how far a joint of the arm lies outside its capsules [m]", high=0.0),
+        NoOriginal("geometry", "the geometry of the links"),
+    ],
+)
+def spatial_model(assumed: Assumed) -> Result:
+    """The stand-in arm with its capsules."""
+    arm = stand_in(assumed["arm"], None, assumed["link_radius_scale"])
+    geometry = wrist_geometry(arm.name, arm.chain)
+    reach = float(geometry.shoulder[0] + geometry.upper_arm[0] + geometry.forearm[0])
+    nominal = Job.of(REGISTRY.nominal("pan"))
+    job = replace(nominal, arm=arm.name, link_radius_scale=assumed["link_radius_scale"])
+    return Result(
+        obtained={"bare": _bare(arm), "reach": reach},
+        caption=(
+            "The stand-in arm with the capsules that stand for its links; its wrist reaches "
+            f"{reach:.2f} m from axis 1. No drawing of the ER16 was available, so the radii are "
+            "assumed."
+        ),
+        alt="A six-joint arm drawn as translucent capsules with its skeleton inside.",
+        figure=lambda: capsule_figure(job.cell(), np.radians([0, 20, 10, 0, 60, 0]), WELDER),
+    )
+
+
+@checks(
+    "pan.claim_bases",
+    rules=[Adopts(name, f"{name} [m]", to=name) for name in BASES],
+)
+def positions(assumed: Assumed) -> Result:
+    """Origins of the base frames that the cell uses."""
+    poses = placed_bases(assumed["base_transform"], assumed["base_orientation"])
+    used = dict(zip(BASES, poses[:, :3, 3].tolist(), strict=True))
+    spread = np.linalg.norm(printed_bases()[:, :2], axis=1)
+    return Result(
+        obtained=used,
+        caption=(
+            f"{_places(poses[:, :3, 3])}, at horizontal distances of "
+            f"{spread[0]:.3f}, {spread[1]:.3f} and {spread[2]:.3f} m from the origin of the world. "
+            "Orientations are not printed for two of them; all are taken as parallel to the world."
+        ),
+    )
+
+
+@checks(
+    "pan.eq_base",
+    rules=[
+        Adopts("matrix", "pose of base 1 in the world, as used", to="matrix"),
+        Is(
+            "labelled_is_listed",
+            "read as its label says, the matrix puts base 1 where the list has it",
+            value=False,
+            role=Role.CONTRADICTS,
+        ),
+    ],
+)
+def matrix(assumed: Assumed) -> Result:
+    """The printed matrix as pose of base 1, and what follows from its label."""
+    printed, listed = printed_base_matrix(), REGISTRY.printed("pan.claim_bases")["base1"]
+    used = placed_bases(assumed["base_transform"], assumed["base_orientation"])[0]
+    reading = label_reading(printed_text("pan.eq_base", "label"))
+    labelled = base_poses(printed[np.newaxis], reading)[0, :3, 3] + 0.0
+    as_pose = _listed(base_poses(printed[np.newaxis], "inverted")[0, :3, 3], listed)
+    gap = float(np.linalg.norm(labelled - printed_bases()[0]))
+    return Result(
+        obtained={
+            "matrix": used.tolist(),
+            "labelled_is_listed": _listed(labelled, listed) if as_pose else None,
+            "as_labelled": gap,
+        },
+        caption=(
+            f"As pose of base 1 in the world the matrix {'gives' if as_pose else 'does not give'} "
+            "the listed position. Its label makes it the "
+            f"{'map from world to base' if reading == 'literal' else 'pose'}; then base 1 "
+            f"would stand at ({', '.join(f'{v:g}' for v in labelled)}) m, {gap:.2f} m away from "
+            "the listed position."
+        ),
+    )
+
+
+@checks(
+    "pan.fig01",
+    rules=[
+        Residual("closure", "both carriers hold the workpiece, to [m]", high=1e-9),
+        NoOriginal("drawing", "the drawing"),
+    ],
+)
+def welding_cell(assumed: Assumed) -> Result:
+    """Both carriers, the welder and the workpiece."""
+    cell, jobs, centre = at_display(assumed)
+    index = SHOWN[assumed["display_configuration"]]
+    return Result(
+        obtained={"closure": grip_change(cell, jobs, centre)},
+        caption=(
+            "Two carriers hold the main pipe by its ends, the welder follows the seam from the "
+            f"other side. Drawn at ({', '.join(f'{v:g}' for v in centre)}) m with the stand-in "
+            "arm; the drawing of the document is not in the text edition."
+        ),
+        alt="Three stick-figure robots around a pipe with a branch, seen from the front and above.",
+        figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index),
+    )
+
+
+@checks(
+    "pan.fig04",
+    rules=[
+        Residual("closure", "both carriers hold the workpiece, to [m]", high=1e-9),
+        Residual("tip", "the torch stays on the seam, to [m]", high=1e-9),
+        NoOriginal("picture", "the picture"),
+    ],
+)
+def real_system(assumed: Assumed) -> Result:
+    """The stand-in cell with the thickness of its capsules."""
+    cell, jobs, centre = at_display(assumed)
+    index = SHOWN[assumed["display_configuration"]]
+    return Result(
+        obtained={
+            "closure": grip_change(cell, jobs, centre),
+            "tip": _tip_error(cell, jobs, centre),
+            "feasible": bool(jobs.feasible[0]),
+            "separation": float(jobs.separation[0]),
+        },
+        caption=(
+            "The document shows a photograph or picture of its hardware, which no computation can "
+            "regenerate; here is the stand-in cell, whose smallest separation on the whole seam is "
+            f"{jobs.separation[0]:.3f} m."
+        ),
+        alt="Three thick-limbed robots around a pipe with a branch.",
+        figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, capsules=True),
+    )
+
+
+@checks(
+    "pan.fig12",
+    rules=[
+        Residual("tip_error", "the torch stays on the seam through the job, to [m]", high=1e-9),
+        NoOriginal("picture", "the picture"),
+    ],
+)
+def simulation(assumed: Assumed) -> Result:
+    """The whole job at the optimum obtained."""
+    cell, jobs, centre, measures = at_optimum(assumed)
+    error = _tip_error(cell, jobs, centre)
+    return Result(
+        obtained={"tip_error": error, "frames": cell.count},
+        caption=(
+            f"The cell carries out the whole job of {cell.count} seam points at the optimum "
+            f"obtained, with the torch on the seam to {error:.1e} m; the bars beside the bases "
+            "rise with the manipulability of each robot. The mean of the system measure is "
+            f"{measures.system.mean():.3f}. The program of the document is not available."
+        ),
+        alt="Three thick-limbed robots at work on the seam of a pipe with a branch.",
+        figure=lambda: cell_figure(cell, jobs.q[0], centre, capsules=True),
+        scene=lambda: job_scene_at("The whole job at the optimum obtained.", cell, jobs, centre),
+    )
+
+
+@checks(
+    "pan.claim_teaching",
+    rules=[NoOriginal("experiment", "an experiment with taught robots")],
+)
+def teaching(assumed: Assumed) -> Result:
+    """A statement about practice."""
+    return Result(
+        obtained={},
+        caption=(
+            "That coordinated robots cannot be taught by hand is a statement about practice; the "
+            "document reports no experiment, and no computation can decide it."
+        ),
+    )
+
+
+def _tip_error(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
+    return float(abs(torch_tips(cell, jobs) - cell.seam_in_world(centre)).max())
+
+
+def _bare(arm: Arm) -> float:
+    """Largest distance of a joint from the capsules at q = 0, negative where all lie inside."""
+    links = posing.links_of(arm)
+    frames = posing.link_frames(arm.chain, np.eye(4)[:3], np.zeros((1, arm.nq)))
+    ends = np.empty((1, len(links.radius), 2, 3))
+    posing.place_cores(frames, links.joint, links.local, ends)
+    start, along = ends[0, :, 0], ends[0, :, 1] - ends[0, :, 0]
+    square = np.maximum(np.sum(along**2, axis=1), 1e-300)
+    depths = []
+    for frame in _joint_frames(arm, np.zeros(arm.nq)):
+        share = np.clip(np.sum((frame[:3, 3] - start) * along, axis=1) / square, 0.0, 1.0)
+        nearest = start + share[:, np.newaxis] * along
+        depths.append((np.linalg.norm(frame[:3, 3] - nearest, axis=1) - links.radius).min())
+    return float(max(depths))
+
+
+def _joint_frames(arm: Arm, q: np.ndarray) -> list[np.ndarray]:
+    data = arm.model.createData()
+    pin.forwardKinematics(arm.model, data, q)
+    return [data.oMi[k].homogeneous for k in range(1, arm.nq + 1)]
+
+
+def _has_spherical_wrist(arm: Arm) -> bool:
+    try:
+        wrist_geometry(arm.name, arm.chain)
+    except UnsupportedArmError:
+        return False
+    return True
+
+
+def label_reading(label: str) -> str:
+    """How ``base_poses`` has to read a matrix of that label.
+
+    By (6) and (8) T_ab carries coordinates from b to a: T_B1w from the world to base 1.
+
+    Raises
+    ------
+    DataFileError
+        The label names no base and the world.
+    """
+    found = re.fullmatch(r"T_(B\d|w)(B\d|w)", label)
+    if not found or "w" not in found.groups() or found[1] == found[2]:
+        raise DataFileError("printed matrix", "label", label, "T_B1w or T_wB1")
+    return "literal" if found[2] == "w" else "inverted"
+
+
+def _listed(position: np.ndarray, listed: list[str]) -> bool:
+    """Whether a position rounds to the listed one."""
+    return all(rounds_to(float(v), text) for v, text in zip(position, listed, strict=True))
+
+
+def _places(positions: np.ndarray) -> str:
+    gap = np.linalg.norm(positions - printed_bases(), axis=1).max()
+    if gap < 1e-12:
+        return "The three bases stand where the list puts them"
+    return f"The three bases stand up to {gap:.2f} m from where the list puts them"

@@ -1,0 +1,106 @@
+"""The fitness over a region: a survey on a grid, mirror images, and positions that a rule picks."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import UnknownNameError
+from .cell import WELDER
+from .genetic import Fitness
+from .grid_search import Optimum, best_cells, grid_points, refined
+from .placement import Placement, blocks
+
+_MIRROR = np.array([-1.0, 1.0, 1.0])
+_SAME = 1e-6  # relative difference of the fitness of two mirror images
+#: Of an extreme and its mirror image the one on this side is meant.
+_SIDE = np.array([1.0, 0.0, 0.0])
+#: Rule to a score (P,) from manipulabilities (P, 3, N) and system measure (P, N).
+EXTREMES = {
+    "lowest_welder": lambda w, system: 1.0 / w[:, WELDER].max(axis=1),
+    "lowest_mean_of_welder": lambda w, system: 1.0 / w[:, WELDER].mean(axis=1),
+    "largest_variation": lambda w, system: system.std(axis=1) / system.mean(axis=1),
+    "largest_swing": lambda w, system: np.ptp(system, axis=1) / system.max(axis=1),
+}
+
+
+class Survey(NamedTuple):
+    """A grid over the region: points (P, 3), fitness (P,) and status of the constraints (P,)."""
+
+    points: np.ndarray
+    fitness: np.ndarray
+    status: np.ndarray
+
+
+def survey(placement: Placement, box: np.ndarray, spacing: float) -> Survey:
+    """Fitness and constraints on the :func:`.grid_search.grid_points` of the region."""
+    points, rated = grid_points(box, spacing), []
+    for block in blocks(points):
+        jobs = placement.jobs(block)
+        rated.append((placement.score(jobs), jobs.status))
+    return Survey(points, *map(np.concatenate, zip(*rated, strict=True)))
+
+
+def nearer_image(found: Optimum, fitness: Fitness, target: np.ndarray) -> Optimum:
+    """The optimum or its mirror image in the plane x = 0, the one nearer to a target.
+
+    The image counts only if it is as good, to a millionth.
+    """
+    image = found.position * _MIRROR
+    nearer = np.linalg.norm(image - target) < np.linalg.norm(found.position - target)
+    if not (found.fitness and nearer):
+        return found
+    value = float(fitness(image[np.newaxis])[0])
+    same = value >= found.fitness * (1 - _SAME)
+    return found._replace(position=image, fitness=value) if same else found
+
+
+def extreme_position(
+    placement: Placement,
+    box: np.ndarray,
+    rule: str,
+    *,
+    spacing: float,
+    starts: int,
+    tolerance: float = 1e-3,
+) -> Optimum:
+    """Feasible position that a rule calls poor, and its score.
+
+    Of mirror images that are as good, the one with x > 0.
+
+    Parameters
+    ----------
+    rule : str
+        A key of :data:`EXTREMES`: ``lowest_welder`` (its largest manipulability along the seam is
+        smallest), ``lowest_mean_of_welder``, ``largest_variation`` (coefficient of variation of
+        the system measure) or ``largest_swing`` (its range over its maximum).
+    spacing, starts, tolerance
+        As in :func:`.grid_search.grid_optimum`.
+
+    Returns
+    -------
+    Optimum
+        Its position is NaN if no position of the grid is feasible.
+
+    Raises
+    ------
+    UnknownNameError
+        No such rule.
+    """
+    if rule not in EXTREMES:
+        raise UnknownNameError("extreme position", "rule", rule, f"one of {', '.join(EXTREMES)}")
+
+    def score(points: np.ndarray) -> np.ndarray:
+        jobs = placement.jobs(points)
+        values = np.zeros(len(points))
+        if jobs.feasible.any():
+            part = jobs.select(jobs.feasible)
+            values[jobs.feasible] = EXTREMES[rule](part.w, placement.measures(part).system)
+        return values
+
+    points = grid_points(box, spacing)
+    values = np.concatenate([score(block) for block in blocks(points)])
+    cells = best_cells(points, values, starts, spacing)
+    found = refined(score, cells, box, 0.5 * spacing, tolerance)
+    return nearer_image(found, score, _SIDE)
