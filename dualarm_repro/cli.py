@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.exceptions import TyperException
 
-from .errors import DualArmError, LedgerError, UnknownNameError
+from .errors import DualArmError, InputError, LedgerError, UnknownNameError
 from .ledger.schema import Kind
 
 if TYPE_CHECKING:
@@ -145,8 +145,9 @@ def verify(
         raise typer.Exit(1)
 
 
+@app.command("sensitivity", hidden=True)  # what the command was called before
 @app.command()
-def sensitivity(
+def robustness(
     item_id: OneId,
     samples: Annotated[
         int | None, typer.Option(help="draw anew, so many; default the stored draws")
@@ -154,6 +155,8 @@ def sensitivity(
     as_json: AsJson = False,
 ) -> None:
     """Sample the assumptions of an item: how often print is met, and what flips the verdict."""
+    if samples is not None and samples < 1:
+        raise InputError("robustness", "--samples", samples, "a positive number")
     registry = _registry()
     made = _record(registry, item_id)
     found = made["robustness"]
