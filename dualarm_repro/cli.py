@@ -292,6 +292,24 @@ def export_ledger(
     _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
 
 
+@app.command("new-document")
+def add_document(
+    name: Annotated[str, typer.Argument(metavar="ID", help="id of the document, e.g. smith")],
+    title: Annotated[str | None, typer.Option(help="its title in English")] = None,
+    root: Annotated[
+        Path | None, typer.Option(help="the clone to write in; default the one around here")
+    ] = None,
+) -> None:
+    """Add a document to a clone: ledger, room, pages, citation, and one example item to replace."""
+    from .new_document import new_document
+
+    with _console(stderr=True).status(f"computing the example of {name}"):
+        files = new_document(name, title, root)
+    for path in files:
+        print(f"written: {path}")
+    print(f"next: dualarm show {name}.example, then fill in data/papers/{name}.yaml")
+
+
 def main() -> None:
     """Entry point: bad input is one line on stderr and exit code 2, a failed check exit code 1."""
     if len(sys.argv) == 1:

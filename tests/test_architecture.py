@@ -18,7 +18,7 @@ FLOORS = (
     ("arms",),
     ("scene",),
     ("planning", "control", "welding"),
-    ("view",),
+    ("view", "new_document"),
     ("papers",),
     ("cli",),
 )
