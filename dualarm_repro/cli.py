@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.exceptions import TyperException
 
-from .errors import DualArmError, LedgerError, UnknownNameError
+from .errors import DualArmError, InputError, LedgerError, UnknownNameError
 from .ledger.schema import Kind
 
 if TYPE_CHECKING:
@@ -145,8 +145,9 @@ def verify(
         raise typer.Exit(1)
 
 
+@app.command("sensitivity", hidden=True)  # what the command was called before
 @app.command()
-def sensitivity(
+def robustness(
     item_id: OneId,
     samples: Annotated[
         int | None, typer.Option(help="draw anew, so many; default the stored draws")
@@ -154,6 +155,8 @@ def sensitivity(
     as_json: AsJson = False,
 ) -> None:
     """Sample the assumptions of an item: how often print is met, and what flips the verdict."""
+    if samples is not None and samples < 1:
+        raise InputError("robustness", "--samples", samples, "a positive number")
     registry = _registry()
     made = _record(registry, item_id)
     found = made["robustness"]
@@ -287,6 +290,24 @@ def export_ledger(
     documents = [paper.document for paper in registry.papers.values()]
     files = publish(records, out, project(), documents, schemas(), stated)
     _console().print("written: " + ", ".join(str(path) for path in files), soft_wrap=True)
+
+
+@app.command("new-document")
+def add_document(
+    name: Annotated[str, typer.Argument(metavar="ID", help="id of the document, e.g. smith")],
+    title: Annotated[str | None, typer.Option(help="its title in English")] = None,
+    root: Annotated[
+        Path | None, typer.Option(help="the clone to write in; default the one around here")
+    ] = None,
+) -> None:
+    """Add a document to a clone: ledger, room, pages, citation, and one example item to replace."""
+    from .new_document import new_document
+
+    with _console(stderr=True).status(f"computing the example of {name}"):
+        files = new_document(name, title, root)
+    for path in files:
+        print(f"written: {path}")
+    print(f"next: dualarm show {name}.example, then fill in data/papers/{name}.yaml")
 
 
 def main() -> None:

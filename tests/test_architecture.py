@@ -3,8 +3,11 @@
 import ast
 import re
 from pathlib import Path
+from statistics import median
 
 import pytest
+
+from dualarm_repro.ledger.closure import module_of
 
 PACKAGE = Path(__file__).parents[1] / "dualarm_repro"
 FILES = sorted(PACKAGE.rglob("*.py"))
@@ -15,7 +18,7 @@ FLOORS = (
     ("arms",),
     ("scene",),
     ("planning", "control", "welding"),
-    ("view",),
+    ("view", "new_document"),
     ("papers",),
     ("cli",),
 )
@@ -30,27 +33,62 @@ FORBIDDEN = {
 }
 
 
+#: Rooms of the documents.
+DOCUMENTS = sorted(p.name for p in (PACKAGE / "papers").iterdir() if (p / "__init__.py").is_file())
+
+
 def _room(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
+def imported(text: str, package: str) -> set[str]:
+    """Dotted names that the source of a module in ``package`` imports, relative ones resolved.
+
+    ``from a import b`` gives ``a.b``, whether ``b`` is a module or a name in one.
+    """
+    found = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            parts = package.split(".")
+            base = parts[: len(parts) - node.level + 1] if node.level else []
+            base += node.module.split(".") if node.module else []
+            found |= {".".join((*base, alias.name)) for alias in node.names}
+    return found
+
+
 def _imports(path: Path) -> set[str]:
-    """Rooms that a file imports from, relative imports resolved."""
-    package = ("dualarm_repro", *path.relative_to(PACKAGE).parts[:-1])
-    rooms = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom):
-            base = package[: len(package) - node.level + 1] if node.level else ()
-            full = (*base, *(node.module.split(".") if node.module else ()))
-            names = [full] if len(full) > 1 else [(*full, alias.name) for alias in node.names]
-            rooms |= {name[1] for name in names if name[:1] == ("dualarm_repro",) and len(name) > 1}
-        elif isinstance(node, ast.Import):
-            rooms |= {
-                alias.name.split(".")[1]
-                for alias in node.names
-                if alias.name.startswith("dualarm_repro.")
-            }
-    return rooms
+    """The same of a file of the package."""
+    package = ".".join(path.relative_to(PACKAGE.parent).parts[:-1])
+    return imported(path.read_text(encoding="utf-8"), package)
+
+
+def _below(names: set[str], package: str) -> set[str]:
+    """First parts of the names that lie below ``package``."""
+    prefix = f"{package}."
+    return {n.removeprefix(prefix).partition(".")[0] for n in names if n.startswith(prefix)}
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("from .. import qiu", "dualarm_repro.papers.qiu"),
+        ("from .. import pan, qiu as other", "dualarm_repro.papers.qiu"),
+        ("from ..qiu import field", "dualarm_repro.papers.qiu.field"),
+        ("from ..qiu.pages.field import draw", "dualarm_repro.papers.qiu.pages.field.draw"),
+        ("from ...papers import qiu", "dualarm_repro.papers.qiu"),
+        ("from ...papers.qiu import field", "dualarm_repro.papers.qiu.field"),
+        ("from dualarm_repro.papers import qiu", "dualarm_repro.papers.qiu"),
+        ("from dualarm_repro.papers.qiu import field", "dualarm_repro.papers.qiu.field"),
+        ("import dualarm_repro.papers.qiu.field as f", "dualarm_repro.papers.qiu.field"),
+        ("def f():\n    from .. import qiu", "dualarm_repro.papers.qiu"),
+        ("from . import field", "dualarm_repro.papers.xue.field"),
+        ("from ...arms import Arm", "dualarm_repro.arms.Arm"),
+    ],
+)
+def test_imports_are_resolved(text, name):
+    assert name in imported(text, "dualarm_repro.papers.xue")
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
@@ -68,7 +106,7 @@ def test_file(path):
     room = _room(path)
     if room == "__init__":
         return
-    for other in _imports(path) - {room, "__version__"}:
+    for other in _below(_imports(path), "dualarm_repro") - {room, "__version__"}:
         assert FLOOR[other] <= FLOOR[room], f"{room} imports {other}, which is above it"
         assert other in FLOORS[0] or FLOOR[other] < FLOOR[room], f"{room} imports its peer {other}"
         assert (room, other) not in FORBIDDEN
@@ -98,16 +136,43 @@ def test_kernels_are_compiled_in_one_way():
             assert not re.search(r"\bnjit\b", _code(path)), path
 
 
-def test_papers_do_not_import_each_other():
-    papers = [path for path in FILES if _room(path) == "papers" and len(path.parts) > 2]
-    names = {p.name for p in (PACKAGE / "papers").iterdir() if p.is_dir()}
-    for path in papers:
-        own = path.relative_to(PACKAGE).parts[1]
-        if own not in names:
-            continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.level == 2 and node.module:
-                assert node.module.split(".")[0] not in names - {own}
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_papers_do_not_import_each_other(document):
+    others = set(DOCUMENTS) - {document}
+    for path in (PACKAGE / "papers" / document).rglob("*.py"):
+        assert not _below(_imports(path), "dualarm_repro.papers") & others, path
+
+
+def _shown(page: Path) -> set[str]:
+    """Items that the cells of a page of the book show."""
+    return set(re.findall(r'^show\("([\w.]+)"\)', page.read_text(encoding="utf-8"), re.MULTILINE))
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_a_document_has_one_file_for_each_page_of_its_book(document, registry):
+    """The checker of an item lies in the file, or the folder, named as the page that shows it."""
+    book, room = PACKAGE.parent / "book" / document, PACKAGE / "papers" / document / "pages"
+    pages = {page.stem for page in book.glob("*.md") if page.stem != "index" and _shown(page)}
+    files = {path.stem for path in room.glob("*.py")} - {"__init__"}
+    folders = {path.parent.name for path in room.glob("*/__init__.py")}
+    assert not files & folders
+    assert files | folders == pages
+    for item_id, checker in registry.checkers.items():
+        if item_id.startswith(f"{document}."):
+            assert item_id in _shown(book.parent / f"{checker.page}.md")
+            home = f"dualarm_repro.papers.{document}.pages.{checker.page.split('/')[1]}"
+            module = module_of(checker.compute)
+            assert f"{module}.".startswith(f"{home}."), (
+                f"{item_id} of {checker.page} is in {module}"
+            )
+
+
+def test_the_documents_are_the_smaller_part_and_files_are_short():
+    lines = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in FILES}
+    papers = sum(count for path, count in lines.items() if _room(path) == "papers")
+    assert papers <= 0.36 * sum(lines.values())
+    assert max(lines.values()) <= 400
+    assert median(lines.values()) <= 110
 
 
 def test_book_touches_only_the_upper_rooms():

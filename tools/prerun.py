@@ -30,6 +30,7 @@ from dualarm_repro.ledger.reference import read_costs
 from dualarm_repro.papers import load
 from dualarm_repro.sources import graph
 from dualarm_repro.view.page import pictures
+from dualarm_repro.view.rendering import TEMPLATES
 
 ROOT = Path(__file__).resolve().parents[1]
 READER = {"name": "myst_nb_md", "type": "plugin"}
@@ -100,7 +101,8 @@ def _compute(item_ids: list[str]) -> None:
 def page_key(page: Path) -> str:
     """What the outputs of a page depend on: its cells, the library it imports, the items it shows.
 
-    A page that asks for the whole registry depends on every item; robots and scenes count for all.
+    A page that asks for the whole registry depends on every item; robots, scenes and
+    templates count for all.
     """
     text = page.read_text(encoding="utf-8")
     cells = re.findall(r"^```\{code-cell\}.*?^```", text, re.DOTALL | re.MULTILINE)
@@ -113,8 +115,8 @@ def page_key(page: Path) -> str:
     parts = [code, closure_of_modules(tuple(known), drawn=True).digest]
     parts += [to_json(record(registry, item_id), indent=None) for item_id in shown]
     parts += [to_json(pictures(registry, i), indent=None) for i in items if i in registry.items]
-    for folder in ("robots", "scenes"):
-        parts += [hash_file(path) for path in sorted(data_path(folder).glob("*.yaml"))]
+    read = [data_path(folder).glob("*.yaml") for folder in ("robots", "scenes")]
+    parts += [hash_file(p) for paths in (*read, TEMPLATES.glob("*.html")) for p in sorted(paths)]
     return sha256("\0".join(parts).encode()).hexdigest()
 
 

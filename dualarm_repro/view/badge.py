@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 from typing import Any
+
+from markupsafe import Markup
 
 from ..ledger.meaning import MEANING
 from ..ledger.verdict import Verdict
@@ -23,7 +24,7 @@ SIGN = {
 }
 
 
-def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> str:
+def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> Markup:
     """HTML badge of a verdict, its meaning as a tooltip.
 
     Parameters
@@ -37,18 +38,16 @@ def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> str:
         share = f", {percent(robustness['meets_print']['share'])}"
         low, high = robustness["meets_print"]["interval"]
         note = f" Print is met in {interval(low, high)} of the plausible choices."
-    return (
-        f'<span class="verdict verdict-{known}" title="{escape(MEANING[known] + note)}">'
-        f"{SIGN[known]} {known}{share}</span>"
-    )
+    span = Markup('<span class="verdict verdict-{0}" title="{1}">{2} {0}{3}</span>')
+    return span.format(known, MEANING[known] + note, SIGN[known], share)
 
 
 def percent(share: float) -> str:
     """A share as a percentage that says 0 or 100 only where it is exactly that."""
     if 0.0 < share < 0.01:
-        return "&lt; 1 %"
+        return "< 1 %"
     if 0.99 < share < 1.0:
-        return "&gt; 99 %"
+        return "> 99 %"
     return f"{100 * share:.0f} %"
 
 

@@ -2,40 +2,14 @@
 
 from __future__ import annotations
 
-from html import escape
-from typing import Any
-
 import pandas as pd
+from markupsafe import Markup
 
 from ..ledger import Registry, Verdict, record
-from .badge import badge
 from .card import legend_html
 from .item_table import item_table
 from .page import Page
-
-_SCRIPT = """
-(function () {
-  const box = document.getElementById("ledger-table");
-  const rows = Array.from(box.querySelectorAll("tbody tr"));
-  const fields = ["paper", "kind", "verdict"];
-  const selects = fields.map((name) => box.querySelector(`select[name=${name}]`));
-  const words = box.querySelector("input");
-  const count = box.querySelector("output");
-  function update() {
-    const needle = words.value.toLowerCase();
-    let shown = 0;
-    for (const row of rows) {
-      const keep = selects.every((s) => !s.value || row.dataset[s.name] === s.value) &&
-        row.textContent.toLowerCase().includes(needle);
-      row.hidden = !keep;
-      shown += keep;
-    }
-    count.textContent = `${shown} of ${rows.length} items`;
-  }
-  [...selects, words].forEach((element) => element.addEventListener("input", update));
-  update();
-})();
-"""
+from .rendering import render
 
 
 def verdict_counts(registry: Registry) -> pd.DataFrame:
@@ -52,17 +26,7 @@ def verdict_counts(registry: Registry) -> pd.DataFrame:
 def counts_page(registry: Registry) -> Page:
     """Verdict counts as a table with badges, one column per document."""
     table = verdict_counts(registry)
-    head = "".join(f"<th>{name}</th>" for name in table.index)
-    rows = "".join(
-        f"<tr><th>{badge(name) if name != 'total' else name}</th>"
-        + "".join(f"<td>{value}</td>" for value in column)
-        + "</tr>"
-        for name, column in table.items()
-    )
-    return Page(
-        '<div class="ledger-scroll"><table class="ledger-counts" id="verdict-counts">'
-        f"<tr><th>verdict</th>{head}</tr>{rows}</table></div>"
-    )
+    return Page(render("counts", documents=list(table.index), rows=list(table.items())))
 
 
 def legend_page() -> Page:
@@ -76,16 +40,9 @@ def ledger_page(registry: Registry) -> Page:
     Items link to the page that shows them; the table itself belongs on a top-level page.
     """
     records = [record(registry, item_id) for item_id in registry.items]
-    choices = "".join(_select(name, records) for name in ("paper", "kind", "verdict"))
-    return Page(
-        f'<div id="ledger-table"><p class="ledger-filter">{choices}'
-        '<label>words <input type="search"></label> <output></output></p>'
-        f"{item_table(registry, registry.items)}</div><script>{_SCRIPT}</script>"
-    )
-
-
-def _select(name: str, records: list[dict[str, Any]]) -> str:
-    values = dict.fromkeys(made[name] for made in records)
-    options = "".join(f"<option>{escape(value)}</option>" for value in values)
-    menu = f'<select name="{name}"><option value="">all</option>{options}</select>'
-    return f"<label>{name} {menu}</label> "
+    menus = {
+        field: list(dict.fromkeys(made[field] for made in records))
+        for field in ("paper", "kind", "verdict")
+    }
+    table = Markup(item_table(registry, registry.items))
+    return Page(render("ledger", menus=menus, table=table))

@@ -94,18 +94,23 @@ def test_run_writes_files(dualarm, tmp_path):
     assert 'src="http' not in scene
 
 
-def test_verify_and_sensitivity(dualarm):
+def test_verify_and_robustness(dualarm):
     code, out, _ = dualarm("verify", "xue.eq01", "xue.tab01", "xue.fig05", "--json")
     report = json.loads(out)
     assert (code, report["drifted"]) == (0, [])
     assert report["checked"] == 3
-    code, out, _ = dualarm("sensitivity", "xue.claim_overlap", "--samples", 8, "--json")
+    code, out, _ = dualarm("robustness", "xue.claim_overlap", "--samples", 8, "--json")
     assert code == 0
     assert json.loads(out)["robustness"]["samples"] == 8
     stored = json.loads(dualarm("show", "xue.claim_overlap", "--json")[1])["robustness"]
-    again = json.loads(dualarm("sensitivity", "xue.claim_overlap", "--json")[1])
+    again = json.loads(dualarm("robustness", "xue.claim_overlap", "--json")[1])
     assert again["robustness"] == stored
-    assert "no assumption with another plausible value" in dualarm("sensitivity", "xue.eq01")[1]
+    assert "no assumption with another plausible value" in dualarm("robustness", "xue.eq01")[1]
+
+
+def test_the_former_name_of_robustness_still_works(dualarm):
+    assert dualarm("sensitivity", "xue.eq01") == dualarm("robustness", "xue.eq01")
+    assert "sensitivity" not in dualarm("--help")[1]
 
 
 def test_verify_is_the_same_for_two_workers(dualarm):
@@ -151,7 +156,7 @@ def test_export_writes_the_ledger(dualarm, tmp_path, records):
         (["run", "xue.nothing", "--out", "."], ["xue.nothing"]),
         (["verify", "xue.nothing"], ["xue.nothing"]),
         (["cite", "xue.tab01", "--format", "ris"], ["ris"]),
-        (["sensitivity", "xue.claim_overlap", "--samples", "0"], ["samples", "0"]),
+        (["robustness", "xue.claim_overlap", "--samples", "0"], ["samples", "0"]),
         (["study", "nothing"], ["nothing"]),
     ],
 )
@@ -178,7 +183,7 @@ def test_unwritable_folder_leaves_nothing(dualarm, tmp_path):
 def test_help_lists_the_commands(dualarm):
     code, out, _ = dualarm("--help")
     assert code == 0
-    names = ("list", "show", "run", "verify", "sensitivity", "cite", "export")
+    names = ("list", "show", "run", "verify", "robustness", "cite", "export")
     assert all(name in out for name in names)
     code, out, _ = dualarm()
     assert code == 2

@@ -11,16 +11,7 @@ from dualarm_repro.view.card import card_html, robustness_text
 from dualarm_repro.view.firmness import firmness_svg
 from dualarm_repro.view.wording import search_lines
 
-POSSIBLE = "reproduced-under-assumption"
-ROBUST = {
-    "holds": 0.05,
-    "samples": 32,
-    "interval": [0.01, 0.16],
-    "meets_print": {"share": 0.05, "interval": [0.01, 0.16]},
-    "flip": {"assumption": "width", "nominal": 1.0, "value": 1.5, "change": 0.1,
-             "verdict": "not-reproduced"},
-    "influence": {"width": 0.61, "shape<": 0.2},
-}  # fmt: skip
+from .full_record import POSSIBLE, ROBUST
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +29,7 @@ def test_badge_shows_the_share_of_what_is_only_possible():
 
 @pytest.mark.parametrize(
     ("share", "text"),
-    [(0.0, "0 %"), (0.004, "&lt; 1 %"), (0.5, "50 %"), (0.996, "&gt; 99 %"), (1.0, "100 %")],
+    [(0.0, "0 %"), (0.004, "< 1 %"), (0.5, "50 %"), (0.996, "> 99 %"), (1.0, "100 %")],
 )
 def test_percent_says_all_or_nothing_only_where_it_is(share, text):
     assert percent(share) == text

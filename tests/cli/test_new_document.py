@@ -1,0 +1,160 @@
+"""`dualarm new-document` in a copy of the tree: what it writes passes, or nothing is left."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from shutil import copy2, copytree, ignore_patterns
+
+import pytest
+
+from dualarm_repro.datafiles import read_yaml
+from dualarm_repro.errors import LedgerError, OutputError
+from dualarm_repro.new_document import new_document
+
+ROOT = Path(__file__).parents[2]
+TITLE = 'On "arms" & <hands>: 50 % of $x_1$, {and} \\more'
+CELL = re.compile(r"^```\{code-cell\} ipython3\n(.*?)^```", re.DOTALL | re.MULTILINE)
+
+
+def copied(folder):
+    """The tree as a newcomer's clone has it."""
+    for part in ("book", "data", "dualarm_repro", "tests", "tools"):
+        copytree(ROOT / part, folder / part, ignore=ignore_patterns("__pycache__"))
+    for path in ROOT.glob("*.*"):
+        if path.is_file():
+            copy2(path, folder)
+    for name in (".zenodo.json", "LICENSE", "Makefile"):
+        copy2(ROOT / name, folder)
+    return folder
+
+
+def files(folder):
+    return {p: p.read_bytes() for p in folder.rglob("*") if p.is_file() and p.suffix != ".pyc"}
+
+
+def run(clone, *command, cwd=None):
+    """A command in a process that knows the copy alone."""
+    path = {**os.environ, "PYTHONPATH": str(clone), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run(
+        [sys.executable, *map(str, command)],
+        cwd=cwd or clone,
+        env=path,
+        capture_output=True,
+        text=True,
+    )
+
+
+def dualarm(clone, *arguments, cwd=None):
+    return run(clone, "-m", "dualarm_repro.cli", *arguments, cwd=cwd)
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory):
+    """A clone with a fifth document, written from a folder inside of it."""
+    folder = copied(tmp_path_factory.mktemp("clone"))
+    made = dualarm(folder, "new-document", "smith", "--title", TITLE, cwd=folder / "book")
+    assert (made.returncode, made.stderr) == (0, "")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def untouched(tmp_path_factory):
+    return copied(tmp_path_factory.mktemp("untouched"))
+
+
+def test_the_example_has_a_verdict(clone):
+    made = json.loads(dualarm(clone, "show", "smith.example", "--json").stdout)
+    assert made["verdict"] == "reproduced-under-assumption"
+    assert made["draws"] == "up to date"
+    assert 0 < made["robustness"]["meets_print"]["share"] < 1
+    assert made["code"]["file"] == "dualarm_repro/papers/smith/pages/first.py"
+    listed = json.loads(dualarm(clone, "list", "--paper", "smith", "--json").stdout)
+    assert [entry["id"] for entry in listed] == ["smith.example"]
+    assert read_yaml(clone / "data/papers/smith.yaml")["document"]["title"] == TITLE
+
+
+def test_the_tests_of_the_clone_accept_it(clone):
+    chosen = ("test_architecture", "ledger/test_completeness", "papers/test_ledger_of_papers",
+              "papers/test_trust", "view/test_schemas", "test_metadata")  # fmt: skip
+    words = "smith or real_ledger or generated or agree or crate_is_read or pybtex"
+    command = ("-m", "pytest", "-p", "no:cacheprovider", "-k", words)
+    made = run(clone, *command, *(f"tests/{name}.py" for name in chosen))
+    assert made.returncode == 0, made.stdout
+    assert int(re.search(r"(\d+) passed", made.stdout)[1]) > 25
+
+
+def test_its_pages_are_in_the_book_and_run(clone):
+    contents = (clone / "book/_toc.yml").read_text()
+    assert "- file: pan/search\n      - file: smith/index\n        sections:\n" in contents
+    for page in ("index", "first"):
+        cells = CELL.findall((clone / f"book/smith/{page}.md").read_text())
+        made = run(clone, "-c", "\n".join(cells))
+        assert made.returncode == 0, made.stderr
+
+
+def test_what_it_writes_is_formatted(clone):
+    for command in (("format", "--check"), ("check",)):
+        assert run(clone, "-m", "ruff", *command, "dualarm_repro/papers/smith").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["xue"], ["xue", "names nothing in the clone"]),
+        (["wording"], ["wording", "names nothing"]),
+        (["foundations"], ["foundations", "names nothing"]),
+        (["khatib1986"], ["khatib1986", "names nothing"]),
+        (["Smith"], ["Smith", "small letters"]),
+        (["2020"], ["2020", "small letters"]),
+        (["a-b"], ["a-b", "small letters"]),
+        (["../smith"], ["../smith", "small letters"]),
+        (["class"], ["class", "small letters"]),
+        (["smith", "--title", " "], ["--title", "a text"]),
+        (["smith", "--root", "/"], ["--root", "a clone"]),
+        ([], ["Missing argument"]),
+    ],
+)
+def test_bad_input_is_one_line_and_writes_nothing(untouched, arguments, words):
+    before = files(untouched)
+    made = dualarm(untouched, "new-document", *arguments)
+    assert (made.returncode, made.stdout, made.stderr.count("\n")) == (2, "", 1)
+    assert all(word in made.stderr for word in words), made.stderr
+    assert files(untouched) == before
+
+
+def test_without_a_clone_around(tmp_path):
+    made = dualarm(ROOT, "new-document", "smith", cwd=tmp_path)
+    assert (made.returncode, made.stderr.count("\n")) == (2, 1)
+    assert str(tmp_path) in made.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("fails_at", [1, 8])
+def test_a_file_that_cannot_be_moved_leaves_all_as_before(untouched, monkeypatch, fails_at):
+    before, folders = files(untouched), {p for p in untouched.rglob("*") if p.is_dir()}
+    replace, calls = Path.replace, []
+
+    def failing(path, target):
+        calls.append(target)
+        if len(calls) == fails_at:
+            raise PermissionError(13, "Permission denied")
+        return replace(path, target)
+
+    monkeypatch.setattr(Path, "replace", failing)
+    with pytest.raises(OutputError, match="Permission denied"):
+        new_document("smith", root=untouched)
+    assert files(untouched) == before
+    assert {p for p in untouched.rglob("*") if p.is_dir()} == folders
+
+
+def test_a_clone_that_cannot_compute_is_left_alone(tmp_path):
+    folder = copied(tmp_path)
+    rules = folder / "dualarm_repro/ledger/rules.py"
+    rules.write_text(rules.read_text() + "\nraise ValueError('broken')\n")
+    before = files(folder)
+    with pytest.raises(LedgerError, match=r"cannot compute smith\.example: ValueError: broken"):
+        new_document("smith", root=folder)
+    assert files(folder) == before
