@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from ..datafiles import from_validation
-from ..errors import InputError
+from ..settings import Positive, Settings
 
-Positive = Annotated[float, Field(gt=0)]
 Share = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
 Point = tuple[float, float, float]
@@ -49,29 +47,6 @@ class Switching(StrEnum):
 
 #: Named sets of control points; frame n of an arm with n - 1 joints is its flange.
 PointSet = Literal["end_effector", "frames_2_6", "frames_1_5", "five_links", "capsules"]
-
-
-def code(member: StrEnum) -> int:
-    """Number of a choice inside compiled code: its place among the choices."""
-    return list(type(member)).index(member)
-
-
-class Settings(BaseModel):
-    """Base: keyword arguments only, immutable; unknown fields and wrong values are input errors."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    def __init__(self, **values: Any) -> None:
-        try:
-            super().__init__(**values)
-        except ValidationError as error:
-            found = from_validation(type(self).__name__, error)
-            field = found.field if error.errors()[0]["loc"] else "combination of values"
-            raise InputError(found.source, field, found.value, found.expected) from None
-
-    def changed(self, **values: Any) -> Self:
-        """The same settings with some values changed, checked again."""
-        return type(self)(**{**dict(self), **values})
 
 
 class Attraction(Settings):

@@ -12,7 +12,7 @@ from ...ledger.formula import parse
 from ...planning.descent.adaptive_step import step_length
 from ...planning.field.variable_gain import gain_factor
 from ...planning.search.bidirectional_settings import GainRule, StepRule
-from ...planning.settings import code
+from ...settings import code
 from .printed_formula import value_of
 from .readings import GAIN, TRADITIONAL, variable_gain_plan
 from .scenario import ALPHA0, INFLUENCE

@@ -9,7 +9,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from ..settings import Combination, Count, PointSet, Positive, Settings, Share
+from ...settings import Positive, Settings
+from ..settings import Combination, Count, PointSet, Share
 
 Factor = Annotated[float, Field(gt=0, le=1)]
 

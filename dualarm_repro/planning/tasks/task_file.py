@@ -30,8 +30,9 @@ from ...datafiles import StrictModel, from_validation, read_yaml
 from ...errors import DataFileError, InputError
 from ...scene import PlacedArm, Scene, load_scene
 from ...scene.scene_file import Name, Number, Point, Radians
+from ...settings import Settings
 from ..master_slave import MasterPoints
-from ..settings import APFSettings, PointSet, Settings
+from ..settings import APFSettings, PointSet
 from .postures import Elbow, Tool, posture
 from .tip_goal import REACHED, tip_posture
 
