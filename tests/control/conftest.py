@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.control.problem import Problem
+from dualarm_repro.control.problem import QuadraticProgram
 from dualarm_repro.papers.patent.tasks import arm_pair
 
 
@@ -25,4 +25,4 @@ def random_problem(rng, equalities=6, rows=12, tight=0.5):
     A, G = rng.normal(size=(equalities, n)), rng.normal(size=(rows, n))
     loose = rng.random(rows) * (rng.random(rows) > tight)
     lower, upper = (x + side * rng.random(n) * (rng.random(n) > 0.2) for side in (-1, 1))
-    return Problem(0.1 * rng.normal(size=n), A, A @ x, G, G @ x + loose, lower, upper)
+    return QuadraticProgram(0.1 * rng.normal(size=n), A, A @ x, G, G @ x + loose, lower, upper)
