@@ -10,7 +10,7 @@ from ...control.motion import Motion
 from ...control.neural.continuous import INTEGRATORS, integrate_network
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .constants import CONTROL_STEP, SEED
 from .scenario import Frozen, frozen
@@ -30,7 +30,7 @@ _RANDOM = 0.1  # [rad/s] size of a random state
 def accurate(assumed: Assumed) -> Result:
     """Largest tip error of the network over the frozen task, to the micrometre."""
     scenario = frozen("crossing")
-    settings = Settings(feedback=assumed["feedback_gain"])
+    settings = ControllerSettings(feedback=assumed["feedback_gain"])
     network = NetworkSettings(gamma=assumed["gain"])
     size = scenario.system.nq + 3 * len(scenario.system.arms)
     y0 = _start(assumed["initial_state"], size)
@@ -65,7 +65,11 @@ def _start(name: str, size: int) -> np.ndarray:
 
 
 def _network_motion(
-    scenario: Frozen, settings: Settings, network: NetworkSettings, integrator: str, y0: np.ndarray
+    scenario: Frozen,
+    settings: ControllerSettings,
+    network: NetworkSettings,
+    integrator: str,
+    y0: np.ndarray,
 ) -> Motion:
     arguments = (scenario.system, scenario.circles, scenario.q0, settings, network)
     if integrator in INTEGRATORS:

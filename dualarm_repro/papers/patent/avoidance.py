@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
@@ -12,7 +11,7 @@ from ...control.controller import VelocityController
 from ...control.motion import Motion
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import pseudo_inverse
 from ...ledger import REGISTRY, Assumed, Bounded, Residual, Result
 from ...tracking import memo
@@ -174,7 +173,9 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
     )
 
 
-def _three(scenario: Frozen, settings: Settings, dt: float) -> tuple[Motion, Motion, Motion]:
+def _three(
+    scenario: Frozen, settings: ControllerSettings, dt: float
+) -> tuple[Motion, Motion, Motion]:
     """Motions by the pseudo-inverse, by the QP with slack, and by the network."""
     arguments = (scenario.system, scenario.circles, scenario.q0, settings, NetworkSettings())
     return (
@@ -184,9 +185,9 @@ def _three(scenario: Frozen, settings: Settings, dt: float) -> tuple[Motion, Mot
     )
 
 
-def _changed(scenario: Frozen, settings: Settings, motion: Motion) -> np.ndarray:
+def _changed(scenario: Frozen, settings: ControllerSettings, motion: Motion) -> np.ndarray:
     """How far each joint velocity is from the one without avoidance at the same place [rad/s]."""
-    controller = VelocityController(scenario.system, replace(settings, avoid=False))
+    controller = VelocityController(scenario.system, settings.changed(avoid=False))
     return np.array(
         [
             np.abs(controller.velocity(q, *scenario.circles.at(t)) - x).max()
@@ -196,7 +197,7 @@ def _changed(scenario: Frozen, settings: Settings, motion: Motion) -> np.ndarray
 
 
 @memo(64)
-def _step_operations(settings: Settings) -> dict[str, float]:
+def _step_operations(settings: ControllerSettings) -> dict[str, float]:
     """Operations of one whole step of each solver where most rows are active."""
     scenario = frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)
@@ -222,7 +223,7 @@ def _nearest_pair(
     return approach, bound
 
 
-def _step_seconds(scenario: Frozen, settings: Settings) -> float:
+def _step_seconds(scenario: Frozen, settings: ControllerSettings) -> float:
     """Time of one step within the compiled loop [s], the best of three runs."""
     times = []
     for _ in range(3):

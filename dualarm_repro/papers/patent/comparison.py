@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ...control.motion import Motion
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import pseudo_inverse
 from ...ledger import REGISTRY, Assumed, Bounded, Is, Result
 from ...view.arm_drawings import skeleton
@@ -120,7 +120,9 @@ def _tip_paths(scenario: Frozen) -> list[np.ndarray]:
     return [points[:, 0], points[:, 1]]
 
 
-def _comparison_figure(scenario: Frozen, settings: Settings, naive: Motion, motion: Motion) -> Any:
+def _comparison_figure(
+    scenario: Frozen, settings: ControllerSettings, naive: Motion, motion: Motion
+) -> Any:
     worst = int(naive.distance.argmin())
     at = min(worst, len(motion.q) - 1)
     paths = _tip_paths(scenario)

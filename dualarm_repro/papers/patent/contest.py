@@ -12,7 +12,7 @@ from ...control.contest import Entry, contest, newton_all
 from ...control.neural.network import network_rate
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.primal_dual import iterate
-from ...control.problem import Problem
+from ...control.problem import QuadraticProgram
 from ...control.recorded import stacked
 from ...control.solvers import solve
 from ...ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
@@ -211,13 +211,13 @@ def _first(errors: np.ndarray, threshold: float) -> int | None:
     return int(below[0]) if len(below) else None
 
 
-def _network_errors(p: Problem, network: NetworkSettings) -> np.ndarray:
+def _network_errors(p: QuadraticProgram, network: NetworkSettings) -> np.ndarray:
     """|x - x*|_inf before each step of unit gain, from zero."""
     size, exact = p.size + len(p.b), solve(p).x
     y, rate, still, errors = np.zeros(size), np.empty(size), np.zeros(size), []
     for _ in range(_MOST_STEPS):
         errors.append(float(np.abs(y[: p.size] - exact).max()))
-        network_rate(network.numbers(), 1.0, still, *p.parts, y, rate)
+        network_rate(network.numbers(), 1.0, still, p.parts, y, rate)
         y += rate
     return np.array(errors)
 
@@ -235,7 +235,7 @@ def _primal_dual_errors() -> list[np.ndarray]:
     for p in recorded(100):
         exact, u, done, errors = solve(p).x, np.zeros(p.size + len(p.b) + len(p.h)), 0, []
         for count in _counts():
-            iterate(*p.parts, u, int(count) - done, 0.0)
+            iterate(p.parts, u, int(count) - done, 0.0)
             done = int(count)
             errors.append(float(np.abs(u[: p.size] - exact).max()))
         found.append(np.array(errors))

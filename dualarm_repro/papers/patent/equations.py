@@ -9,8 +9,8 @@ import pandas as pd
 import pinocchio as pin
 
 from ...control.controller import VelocityController
-from ...control.problem import Problem
-from ...control.settings import Settings
+from ...control.problem import QuadraticProgram
+from ...control.settings import ControllerSettings
 from ...control.simulate import pseudo_inverse
 from ...control.system import ArmSystem
 from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
@@ -106,7 +106,7 @@ def least_velocity(assumed: Assumed) -> Result:
     system = scenario.system
     worst, excess = 0.0, 0.0
     rng = np.random.default_rng(SEED)
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     for _ in range(20):
         q, velocity = random_configuration(system, rng), rng.normal(size=(2, 3))
         p = controller.problem(q, system.tips(q), velocity)
@@ -147,7 +147,7 @@ def _forward(printed: Formula, scenario: Frozen) -> tuple[float, float, float]:
     halves = np.split(q, 2)
     model = [placed.arm.fk(part)[:3, 3] for placed, part in zip(system.arms, halves, strict=True)]
     f = np.array([p.placement.act(tip) for p, tip in zip(system.arms, model, strict=True)])
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     tips = system.tips(q)
     controller.velocity(q, tips, STILL)
     given = {"f": f, "r": controller.tips}
@@ -165,7 +165,7 @@ def random_configuration(system: ArmSystem, rng: np.random.Generator) -> np.ndar
 
 def _self_motion(system: ArmSystem, q: np.ndarray) -> np.ndarray:
     """A posture with the same tips, reached along the null space of J."""
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     tips, moved = system.tips(q), q.copy()
     direction = np.ones(system.nq)
     for _ in range(400):
@@ -180,7 +180,7 @@ def _self_motion(system: ArmSystem, q: np.ndarray) -> np.ndarray:
     return moved
 
 
-def _inertia_weighted(system: ArmSystem, q: np.ndarray, p: Problem) -> np.ndarray:
+def _inertia_weighted(system: ArmSystem, q: np.ndarray, p: QuadraticProgram) -> np.ndarray:
     """min x^T M(q) x under the task, M the joint-space inertia."""
     W = np.zeros((system.nq, system.nq))
     start = system.arrays.start
@@ -194,7 +194,7 @@ def _inertia_weighted(system: ArmSystem, q: np.ndarray, p: Problem) -> np.ndarra
 
 
 def _drift(scenario: Frozen, weight: float) -> list[float]:
-    motion = run(scenario, Settings(repetition=weight), COARSE_STEP, cycles=5)
+    motion = run(scenario, ControllerSettings(repetition=weight), COARSE_STEP, cycles=5)
     return motion.drift(scenario.period).tolist()
 
 

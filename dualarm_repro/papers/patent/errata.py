@@ -7,7 +7,7 @@ import numpy as np
 from ...control.neural.fixed_step import divergence_time as stability_end
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...ledger import REGISTRY, Proof
 from .constants import CONTROL_STEP
 from .gain import GAINS
@@ -19,7 +19,7 @@ from .scenario import frozen, run
 def state_in_right_side() -> Proof:
     """The network with and without the Hessian of the penalty in front of the state derivative."""
     scenario = frozen("crossing")
-    arguments = (scenario.system, scenario.circles, scenario.q0, Settings())
+    arguments = (scenario.system, scenario.circles, scenario.q0, ControllerSettings())
     with_hessian = simulate_network(*arguments, NetworkSettings())
     without = simulate_network(*arguments, NetworkSettings(hessian=False))
     return Proof(
@@ -38,9 +38,9 @@ def initial_state() -> Proof:
     """A zero state where the path starts at full speed, against the exact controller."""
     scenario = frozen("crossing", law="constant_speed")
     network = simulate_network(
-        scenario.system, scenario.circles, scenario.q0, Settings(), NetworkSettings()
+        scenario.system, scenario.circles, scenario.q0, ControllerSettings(), NetworkSettings()
     )
-    exact = run(scenario, Settings())
+    exact = run(scenario, ControllerSettings())
     return Proof(
         "started from a zero state on a path that begins at full speed the network is off the "
         "path by far more than the exact controller on the same path",
@@ -74,7 +74,7 @@ def unbounded_gain() -> Proof:
     for gamma in GAINS:
         network = NetworkSettings(gamma=gamma, capped=False)
         motion = simulate_network(
-            scenario.system, scenario.circles, scenario.q0, Settings(), network
+            scenario.system, scenario.circles, scenario.q0, ControllerSettings(), network
         )
         found.append(float(motion.time[-1]) if not motion.completed else np.inf)
     late = np.subtract(found, predicted)

@@ -102,7 +102,7 @@ def _decay(activation: str, gamma: float, kind: str) -> np.ndarray:
         errors.append(float(np.abs(code_error(p, network, y)).max()))
         grown = gamma * np.exp(step * CONTROL_STEP) if kind == "growing" else gamma
         gain = ceiling if kind == "ceiling" else min(grown, ceiling)
-        network_rate(numbers, gain, still, *p.parts, y, rate)
+        network_rate(numbers, gain, still, p.parts, y, rate)
         y = y + CONTROL_STEP * rate
         if not errors[-1] < 1e6 or errors[-1] < _DONE:
             break

@@ -9,14 +9,15 @@ import pandas as pd
 from scipy.integrate import solve_ivp
 
 from ...control.assembly import make_buffers, sense, state
-from ...control.neural.activation import ACTIVATIONS, activation
+from ...control.neural.activation import activation
 from ...control.neural.continuous import INTEGRATORS, integrate_network
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network import network_rate, state_rate
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.optimality import optimality
-from ...control.settings import ROWS, Settings
+from ...control.settings import ControllerSettings
 from ...ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from ...settings import code
 from .constants import CONTROL_STEP, SEED
 from .penalised import code_error, sample_problem, state_with_error
 from .scenario import frozen, network_of
@@ -62,12 +63,12 @@ def _decay_defect(network: NetworkSettings) -> float:
     size = p.size + len(p.b)
     still = np.zeros(size)
     y0 = state_with_error(p, network, np.random.default_rng(SEED).uniform(-START, START, size))
-    start, kind = code_error(p, network, y0), ACTIVATIONS.index(network.activation)
+    start, kind = code_error(p, network, y0), code(network.activation)
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
         dy = np.empty(size)
         network_rate(
-            numbers, network.gamma * np.exp(t), still, *p.parts, np.ascontiguousarray(y), dy
+            numbers, network.gamma * np.exp(t), still, p.parts, np.ascontiguousarray(y), dy
         )
         return dy
 
@@ -98,7 +99,7 @@ def state_equation(assumed: Assumed) -> Result:
     network = network_of(
         assumed, "state_matrix", "feed_forward", "gain", "activation", "penalty_form"
     )
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     smooth = NetworkSettings(penalty=network.penalty)
     motion, _ = integrate_network(
         scenario.system, scenario.circles, scenario.q0, settings, smooth, sample=0.02
@@ -106,7 +107,7 @@ def state_equation(assumed: Assumed) -> Result:
     system, numbers, numbered = scenario.system, settings.numbers(), network.numbers()
     arrays, circle = system.arrays, scenario.circles.numbers()
     n, size = system.nq, system.nq + 3 * len(system.arms)
-    buffers = make_buffers(arrays, ROWS[numbers.form])
+    buffers = make_buffers(arrays, numbers)
     no_noise, still = np.empty(0), np.zeros(size)
     rng = np.random.default_rng(SEED)
     k = int(motion.distance[:-1].argmin())
@@ -116,9 +117,9 @@ def state_equation(assumed: Assumed) -> Result:
         """xi a time s later."""
         count = sense(arrays, numbers, q + s * move, no_noise, buffers)
         later = scenario.circles.at(t + s)
-        rows = state(arrays, numbers, q + s * move, scenario.q0, *later, count, buffers)
-        B, F = buffers, np.empty(size)
-        optimality(numbered, B.target, B.A, B.b, B.G[:rows], B.h[:rows], B.lower, B.upper, y, F)
+        program = state(arrays, numbers, q + s * move, scenario.q0, *later, count, buffers)
+        F = np.empty(size)
+        optimality(numbered, program, y, F)
         return F
 
     for _ in range(10):
@@ -158,7 +159,7 @@ def state_equation(assumed: Assumed) -> Result:
 )
 def integration(assumed: Assumed) -> Result:
     """Joint angles from the network state over the frozen task."""
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     arguments = (scenario.system, scenario.circles, scenario.q0, settings, NetworkSettings())
     if assumed["integrator"] in INTEGRATORS:
         motion, evaluations = integrate_network(*arguments, integrator=assumed["integrator"])

@@ -9,10 +9,11 @@ import numpy as np
 import pandas as pd
 
 from ...control.neural.network_settings import NetworkSettings
-from ...control.neural.penalty import PENALTIES, penalty
-from ...control.problem import Problem
+from ...control.neural.penalty import Penalty, penalty
+from ...control.problem import QuadraticProgram
 from ...control.solvers import solve
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from ...settings import code
 from ...view.control_figures import penalty_figure
 from .penalised import code_error, penalties, rest_point, sample_problem, stacked
 from .scenario import network_of
@@ -42,8 +43,8 @@ def penalty_function(assumed: Assumed) -> Result:
     """Every declared form at the ends of the declared parameters, against central differences."""
     found = [_properties(*choice) for choice in _declared()]
     forms = {
-        name: np.array([penalty(PENALTIES.index(name), _drawn(name), 10.0, v)[0] for v in _GRID])
-        for name in PENALTIES
+        name: np.array([penalty(code(Penalty(name)), _drawn(name), 10.0, v)[0] for v in _GRID])
+        for name in Penalty
     }
     worst = {key: max(row[key] for row in found) for key in ("first", "second", "inside")}
     return Result(
@@ -175,7 +176,7 @@ def _declared() -> list[tuple[str, float, float]]:
 
 
 def _properties(form: str, p: float, s: float) -> dict[str, float]:
-    kind = PENALTIES.index(form)
+    kind = code(Penalty(form))
     # The quadratic form has a kink at zero, which the grid leaves out.
     g = np.linspace(-4.0, 4.0, 41)[np.arange(41) != 20] / s
     step = 1e-5 / s
@@ -197,7 +198,7 @@ def _properties(form: str, p: float, s: float) -> dict[str, float]:
     }
 
 
-def _without_effect(p: Problem, network: NetworkSettings) -> int:
+def _without_effect(p: QuadraticProgram, network: NetworkSettings) -> int:
     """Inequalities whose bound can be moved to a violation without a change of the code's error."""
     C, d = stacked(p)
     y = rest_point(p, network)
@@ -205,7 +206,7 @@ def _without_effect(p: Problem, network: NetworkSettings) -> int:
     for row in range(len(d)):
         bound = d.copy()
         bound[row] = C[row] @ y[: p.size] - 1.0
-        moved = object.__new__(Problem)
+        moved = object.__new__(QuadraticProgram)
         parts = {
             **vars(p),
             "h": bound[:k],

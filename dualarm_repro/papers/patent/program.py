@@ -10,7 +10,7 @@ import pandas as pd
 from ...control.controller import VelocityController
 from ...control.problem import NoSolution
 from ...control.recorded import recorded_problems
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.solvers import SOLVERS, solve
 from ...control.system import ArmSystem
 from ...ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
@@ -93,8 +93,8 @@ def avoidance_rows(assumed: Assumed) -> Result:
     """Rows, differences of the distances, and what motion within the rows does to them."""
     scenario = crossing(assumed, "capsules")
     settings = settings_of(assumed, "avoidance_form", "pair_selection")
-    near = run(scenario, Settings(), COARSE_STEP)
-    middle = 0.5 * (Settings().inner + Settings().outer)
+    near = run(scenario, ControllerSettings(), COARSE_STEP)
+    middle = 0.5 * (ControllerSettings().inner + ControllerSettings().outer)
     q = near.q[int(np.abs(near.distance - middle).argmin())]
     gradient = _worst_gradient(scenario.system)
     rows, faster = _closing(scenario, settings, q)
@@ -134,7 +134,7 @@ def avoidance_rows(assumed: Assumed) -> Result:
 )
 def quadratic_program(assumed: Assumed) -> Result:
     """The problem along the frozen task, solved by every solver and certified."""
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     motion = run(scenario, settings, COARSE_STEP)
     problems = recorded_problems(scenario.system, scenario.circles, motion, settings, 100)
     reference = [solve(p) for p in problems]
@@ -175,11 +175,11 @@ def angle_excess(scenario: Frozen, q: np.ndarray) -> float:
     return float(max((q - arrays.upper).max(), (arrays.lower - q).max()))
 
 
-def _closing(scenario: Frozen, settings: Settings, q: np.ndarray) -> tuple[int, float]:
+def _closing(scenario: Frozen, settings: ControllerSettings, q: np.ndarray) -> tuple[int, float]:
     """Rows, and by how much a distance below d1 closes faster than beta(d) within them [m/s]."""
     system = scenario.system
     p = VelocityController(system, settings).problem(q, system.tips(q), STILL)
-    every = VelocityController(system, Settings()).problem(q, system.tips(q), STILL)
+    every = VelocityController(system, ControllerSettings()).problem(q, system.tips(q), STILL)
     lengths = np.linalg.norm(p.G, axis=1)
     rng, worst = np.random.default_rng(SEED), -np.inf
     for _ in range(_MOTIONS):
@@ -194,7 +194,7 @@ def _closing(scenario: Frozen, settings: Settings, q: np.ndarray) -> tuple[int, 
 
 def _worst_gradient(system: ArmSystem) -> float:
     """Largest difference of row gradients to central differences over random configurations."""
-    controller = VelocityController(system, Settings(outer=10.0))
+    controller = VelocityController(system, ControllerSettings(outer=10.0))
     rng, worst, n = np.random.default_rng(SEED), 0.0, system.nq
     for _ in range(5):
         q = random_configuration(system, rng)

@@ -10,7 +10,7 @@ import numpy as np
 from ...control.motion import Motion
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import FORMS, Settings
+from ...control.settings import ControllerSettings, RowForm
 from ...control.simulate import simulate
 from ...control.system import ArmSystem
 from ...ledger import REGISTRY, Study
@@ -26,8 +26,8 @@ SETTINGS: dict[str, Any] = {
     "radii": [0.10, 0.20],
     "step": COARSE_STEP,
     "network_step": CONTROL_STEP,
-    "outer": Settings().outer,
-    "inner": Settings().inner,
+    "outer": ControllerSettings().outer,
+    "inner": ControllerSettings().inner,
 }
 
 _CHATTER = "motion with slack chatters between its rows, which amplifies round-off"
@@ -49,7 +49,7 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
 
     A task counts if its start is outside the outer range and the pseudo-inverse follows its path.
     """
-    system, settings = arm_pair(SETTINGS["robot"], SETTINGS["base_distance"]), Settings()
+    system, settings = arm_pair(SETTINGS["robot"], SETTINGS["base_distance"]), ControllerSettings()
     task = draw_task(system, rng, tuple(SETTINGS["radii"]))
     naive = naive_motion(system, task, settings)
     found: dict[str, Any] = {"counts": naive is not None}
@@ -63,8 +63,8 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
     if not found["collides"]:
         return found
     circles = task.circles(system)
-    for form in FORMS:
-        motion = simulate(system, circles, task.q0, Settings(form=form), dt=COARSE_STEP)
+    for form in RowForm:
+        motion = simulate(system, circles, task.q0, ControllerSettings(form=form), dt=COARSE_STEP)
         found |= {
             f"{form}_completed": motion.completed,
             f"{form}_distance": motion.smallest_distance,
@@ -72,7 +72,7 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
             f"{form}_acceleration": motion.peak_acceleration,
             f"{form}_energy": motion.energy,
         }
-    limited = simulate(system, circles, task.q0, Settings(avoid=False), dt=COARSE_STEP)
+    limited = simulate(system, circles, task.q0, ControllerSettings(avoid=False), dt=COARSE_STEP)
     slack = simulate(system, circles, task.q0, settings, dt=COARSE_STEP, slack=True)
     network = simulate_network(
         system, circles, task.q0, settings, NetworkSettings(), dt=CONTROL_STEP

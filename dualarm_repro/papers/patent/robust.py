@@ -14,7 +14,7 @@ from ...control.motion import Motion
 from ...control.neural.fixed_step import simulate_network
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.primal_dual import simulate_primal_dual
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...ledger import REGISTRY, Assumed, Exceeds, Result
 from ...tracking import memo
 from .constants import CONTROL_STEP, SEED
@@ -130,20 +130,20 @@ def _motions(
 @memo(64)
 def _network(network: NetworkSettings, kind: str, size: float, number: int) -> Motion:
     scenario = frozen("crossing")
-    arguments = (scenario.system, scenario.circles, scenario.q0, Settings())
+    arguments = (scenario.system, scenario.circles, scenario.q0, ControllerSettings())
     return simulate_network(*arguments, network, **_disturbed(kind, size, number))
 
 
 @memo(64)
 def _primal_dual(count: int, kind: str, size: float, number: int) -> Motion:
     scenario = frozen("crossing")
-    arguments = (scenario.system, scenario.circles, scenario.q0, Settings())
+    arguments = (scenario.system, scenario.circles, scenario.q0, ControllerSettings())
     return simulate_primal_dual(*arguments, iterations=count, **_disturbed(kind, size, number))
 
 
 @memo(64)
 def _exact(kind: str, size: float, number: int) -> Motion:
-    return run(frozen("crossing"), Settings(), **_disturbed(kind, size, number))
+    return run(frozen("crossing"), ControllerSettings(), **_disturbed(kind, size, number))
 
 
 def _disturbed(kind: str, size: float, number: int) -> dict[str, np.ndarray]:

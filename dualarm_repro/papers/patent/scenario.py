@@ -12,7 +12,7 @@ from ...control.circle import Circles
 from ...control.motion import Motion
 from ...control.neural.network_settings import NetworkSettings
 from ...control.scenario import Scenario, load_scenario
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import simulate
 from ...control.system import ArmSystem
 from ...datafiles import data_path
@@ -80,12 +80,12 @@ def crossing(assumed: Mapping[str, Any], *names: str) -> Frozen:
     return frozen(CROSSING[assumed["robot"]], **{_PLACES[name]: assumed[name] for name in names})
 
 
-def settings_of(assumed: Mapping[str, Any], *names: str) -> Settings:
+def settings_of(assumed: Mapping[str, Any], *names: str) -> ControllerSettings:
     """Controller settings from the named assumptions, the others at their defaults."""
     fields = {_FIELDS[name]: assumed[name] for name in names}
     if "angle_limits" in fields:
         fields["angle_limits"] = fields["angle_limits"] == "velocity_and_angle"
-    return Settings(**fields)
+    return ControllerSettings(**fields)
 
 
 def network_of(assumed: Mapping[str, Any], *names: str) -> NetworkSettings:
@@ -98,7 +98,9 @@ def network_of(assumed: Mapping[str, Any], *names: str) -> NetworkSettings:
     return NetworkSettings(**fields)
 
 
-def run(scenario: Frozen, settings: Settings, dt: float = CONTROL_STEP, **options: Any) -> Motion:
+def run(
+    scenario: Frozen, settings: ControllerSettings, dt: float = CONTROL_STEP, **options: Any
+) -> Motion:
     """The exact controller on a frozen scenario."""
     return simulate(scenario.system, scenario.circles, scenario.q0, settings, dt=dt, **options)
 

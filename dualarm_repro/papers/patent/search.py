@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 from ...control.motion import Motion
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import pseudo_inverse, simulate
 from ...control.system import ArmSystem
 from .constants import SEED
@@ -20,10 +20,10 @@ RADII = (0.10, 0.20)
 #: What a frozen scenario has to meet at 1 kHz.
 DEEP, KEPT, TRACKED = -0.05, 5e-4, 5e-5
 
-Judge = Callable[[ArmSystem, Task, Settings], float | None]
+Judge = Callable[[ArmSystem, Task, ControllerSettings], float | None]
 
 
-def crossing(system: ArmSystem, task: Task, settings: Settings) -> float | None:
+def crossing(system: ArmSystem, task: Task, settings: ControllerSettings) -> float | None:
     """Score of a task on which naive motion collides deeply and avoidance completes."""
     circles = task.circles(system)
     naive = simulate(system, circles, task.q0, pseudo_inverse(settings), dt=0.01)
@@ -33,7 +33,7 @@ def crossing(system: ArmSystem, task: Task, settings: Settings) -> float | None:
     return _peak(motion) if _clean(motion, settings) else None
 
 
-def limits(system: ArmSystem, task: Task, settings: Settings) -> float | None:
+def limits(system: ArmSystem, task: Task, settings: ControllerSettings) -> float | None:
     """Score of a task on which naive motion leaves the joint ranges and the arms come close."""
     circles = task.circles(system)
     naive = simulate(system, circles, task.q0, pseudo_inverse(settings), dt=0.01)
@@ -45,7 +45,7 @@ def limits(system: ArmSystem, task: Task, settings: Settings) -> float | None:
     return _peak(motion) if _clean(motion, settings) and motion.rows.max() > 0 else None
 
 
-def too_close(system: ArmSystem, task: Task, settings: Settings) -> float | None:
+def too_close(system: ArmSystem, task: Task, settings: ControllerSettings) -> float | None:
     """Score of a task that starts inside the inner range, without contact, and is completed."""
     circles = task.circles(system)
     naive = simulate(system, circles, task.q0, pseudo_inverse(settings), dt=0.01)
@@ -74,7 +74,7 @@ SEARCHES: dict[str, tuple[str, Judge, int, str]] = {
 def search(name: str) -> dict:
     """The admissible draw of smallest peak acceleration, as the content of its scenario file."""
     robot, judge, draws, title = SEARCHES[name]
-    system, settings = arm_pair(robot, BASE_DISTANCE), Settings()
+    system, settings = arm_pair(robot, BASE_DISTANCE), ControllerSettings()
     scored = []
     for draw in range(draws):
         task = draw_task(system, np.random.default_rng([SEED, draw]), RADII)
@@ -115,11 +115,11 @@ def freeze(folder: Path) -> None:
         (folder / f"patent_{name}.yaml").write_text(text, encoding="utf-8")
 
 
-def _free_start(naive: Motion, settings: Settings) -> bool:
+def _free_start(naive: Motion, settings: ControllerSettings) -> bool:
     return naive.largest_error < REACHED and naive.distance[0] > settings.outer
 
 
-def _clean(motion: Motion, settings: Settings) -> bool:
+def _clean(motion: Motion, settings: ControllerSettings) -> bool:
     return (
         motion.completed
         and motion.smallest_distance >= settings.inner - KEPT

@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from ...control.circle import Circles
 from ...control.motion import Motion
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import pseudo_inverse, simulate
 from ...control.system import ArmSystem
 from ...scene.bodies import PlacedArm
@@ -59,7 +59,7 @@ def draw_task(system: ArmSystem, rng: np.random.Generator, radii: tuple[float, f
 
 
 def naive_motion(
-    system: ArmSystem, task: Task, settings: Settings, dt: float = SCREEN_STEP
+    system: ArmSystem, task: Task, settings: ControllerSettings, dt: float = SCREEN_STEP
 ) -> Motion | None:
     """Motion by the pseudo-inverse; None if it starts inside the outer range or cannot follow."""
     circles = task.circles(system)

@@ -35,7 +35,7 @@ def test_functions_count_as_declared():
 def test_the_twin_of_the_exact_method_gives_its_minimiser():
     p = sample_problem()
     np.testing.assert_array_equal(
-        Instrument().twin(least_distance)(*p.parts)[1], least_distance(*p.parts)[1]
+        Instrument().twin(least_distance)(p.parts)[1], least_distance(p.parts)[1]
     )
 
 
@@ -44,7 +44,7 @@ def test_the_twin_of_the_network_gives_its_rate(penalty):
     p, numbers = sample_problem(), NetworkSettings(penalty=penalty).numbers()
     size = p.size + len(p.b)
     found, expected = np.empty(size), np.empty(size)
-    arguments = (numbers, 1.0, np.zeros(size), *p.parts, np.zeros(size))
+    arguments = (numbers, 1.0, np.zeros(size), p.parts, np.zeros(size))
     Instrument().twin(network_rate)(*arguments, found)
     network_rate(*arguments, expected)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-15)
@@ -53,8 +53,8 @@ def test_the_twin_of_the_network_gives_its_rate(penalty):
 def test_what_is_changed_in_place_stays_in_place():
     p = sample_problem()
     states = np.zeros((2, p.size + len(p.b) + len(p.h)))
-    Instrument().twin(iterate)(*p.parts, states[0], 3, 0.0)
-    iterate(*p.parts, states[1], 3, 0.0)
+    Instrument().twin(iterate)(p.parts, states[0], 3, 0.0)
+    iterate(p.parts, states[1], 3, 0.0)
     assert np.abs(states[0]).max() > 0
     np.testing.assert_allclose(states[0], states[1], rtol=1e-12, atol=1e-15)
 

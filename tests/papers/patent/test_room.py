@@ -5,7 +5,7 @@ import pytest
 
 import dualarm_repro.papers.patent  # noqa: F401  registers its items
 from dualarm_repro.control.neural.network_settings import NetworkSettings
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import pseudo_inverse
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
 from dualarm_repro.papers import load
@@ -44,7 +44,7 @@ def test_panda_has_twelve_capsules():
 
 @pytest.mark.parametrize("name", ["crossing", "crossing_xarm7"])
 def test_frozen_crossings_meet_their_criteria_at_the_control_rate(name):
-    scenario, settings = frozen(name), Settings()
+    scenario, settings = frozen(name), ControllerSettings()
     naive = run(scenario, pseudo_inverse(settings), CONTROL_STEP)
     motion = run(scenario, settings, CONTROL_STEP)
     assert naive.smallest_distance < DEEP
