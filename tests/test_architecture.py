@@ -13,7 +13,16 @@ PACKAGE = Path(__file__).parents[1] / "dualarm_repro"
 FILES = sorted(PACKAGE.rglob("*.py"))
 #: Floors from the ground up. An import goes down, or stays within its own room.
 FLOORS = (
-    ("errors", "tracking", "cache_folder", "sources", "datafiles", "kernel", "differences"),
+    (
+        "errors",
+        "tracking",
+        "cache_folder",
+        "sources",
+        "datafiles",
+        "settings",
+        "kernel",
+        "differences",
+    ),
     ("ledger",),
     ("arms",),
     ("scene",),
