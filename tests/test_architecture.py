@@ -107,6 +107,26 @@ def test_kernels_are_compiled_in_one_way():
             assert not re.search(r"\bnjit\b", _code(path)), path
 
 
+def _unannotated(function: ast.FunctionDef) -> list[str]:
+    """Arguments without a type, and ``return``; none of a kernel, whose types numba infers."""
+    if any(isinstance(name, ast.Name) and name.id == "kernel" for name in function.decorator_list):
+        return []
+    given = function.args
+    named = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+    missing = [one.arg for one in named if one is not None and one.annotation is None]
+    missing += [] if function.returns else ["return"]
+    return [name for name in missing if name not in ("self", "cls")]
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in FILES if _room(p) != "papers"], ids=lambda p: str(p.relative_to(PACKAGE))
+)
+def test_functions_are_annotated_unless_they_are_kernels(path):
+    for node in ast.walk(ast.parse(_code(path))):
+        if isinstance(node, ast.FunctionDef):
+            assert not _unannotated(node), f"{node.name}, line {node.lineno}"
+
+
 def test_papers_do_not_import_each_other():
     papers = [path for path in FILES if _room(path) == "papers" and len(path.parts) > 2]
     names = {p.name for p in (PACKAGE / "papers").iterdir() if p.is_dir()}
