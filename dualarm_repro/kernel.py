@@ -86,12 +86,12 @@ def _layout(kind: Any) -> Any:
         return kind
     cls = getattr(kind, "instance_class", tuple)
     named = (cls.__module__, cls.__qualname__, getattr(cls, "_fields", ()))
-    return *named, *map(_layout, kind.types)
+    return *named, *map(_layout, getattr(kind, "types", ()))
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
-    compiled = njit(error_model="numpy")(function)
+    compiled: Any = njit(error_model="numpy")(function)
     try:
         compiled._cache = _Cache(function)
     except RuntimeError:  # no folder to keep machine code in

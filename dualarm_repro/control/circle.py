@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,11 +55,22 @@ class Circles:
         No such time law.
     """
 
-    centre: ArrayLike
-    u: ArrayLike
-    v: ArrayLike
+    centre: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
     duration: float = 10.0
     law: TimeLaw = TimeLaw.REST_TO_REST
+
+    if TYPE_CHECKING:  # anything that makes an array is taken, and a law by its name
+
+        def __init__(
+            self,
+            centre: ArrayLike,
+            u: ArrayLike,
+            v: ArrayLike,
+            duration: float = 10.0,
+            law: str = "rest_to_rest",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for name in ("centre", "u", "v"):
@@ -78,22 +89,21 @@ class Circles:
 
     @classmethod
     def through(
-        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing
+        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing: Any
     ) -> Circles:
         """Circles that start at ``tips``, in planes normal to ``normals``.
 
         ``angles`` turn the direction from the tip to the centre within each plane.
         """
-        tips, normals = np.asarray(tips, dtype=float), np.asarray(normals, dtype=float)
-        angles = np.asarray(angles, dtype=float)[:, None]
-        normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        n = np.asarray(normals, dtype=float)
+        n = n / np.linalg.norm(n, axis=1, keepdims=True)
         # Any direction in the plane: the one from the axis that the normal is farthest from.
-        axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-        e = np.cross(normals, axis)
+        axis = np.eye(3)[np.argmin(np.abs(n), axis=1)]
+        e = np.cross(n, axis)
         e /= np.linalg.norm(e, axis=1, keepdims=True)
-        f = np.cross(normals, e)
-        u = radius * (np.cos(angles) * e + np.sin(angles) * f)
-        return cls(tips - u, u, np.cross(normals, u), **timing)
+        turned = np.asarray(angles, dtype=float)[:, None]
+        u = radius * (np.cos(turned) * e + np.sin(turned) * np.cross(n, e))
+        return cls(np.asarray(tips, dtype=float) - u, u, np.cross(n, u), **timing)
 
     def numbers(self) -> CircleNumbers:
         """For the kernels."""

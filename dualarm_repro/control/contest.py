@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -84,12 +85,12 @@ def contest(
     stack = stacked(problems)
     numbers = network.numbers()
     runs: dict[tuple[str, int], Callable[[np.ndarray], None]] = {
-        ("active_set", 1): lambda x: exact_all(stack, x)
+        ("active_set", 1): partial(exact_all, stack)
     }
     for steps in newton_steps:
-        runs["network", steps] = lambda x, steps=steps: newton_all(stack, numbers, steps, x)
+        runs["network", steps] = partial(newton_all, stack, numbers, steps)
     for count in iterations:
-        runs["primal_dual", count] = lambda x, count=count: primal_dual_all(stack, count, x)
+        runs["primal_dual", count] = partial(primal_dual_all, stack, count)
     found = {key: np.empty((len(problems), problems[0].size)) for key in runs}
     for key, run in runs.items():
         run(found[key])

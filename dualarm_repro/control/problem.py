@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,13 +38,26 @@ class QuadraticProgram:
         Shapes that do not fit, NaN, infinity other than in a bound, lower above upper.
     """
 
-    target: ArrayLike
-    A: ArrayLike
-    b: ArrayLike
-    G: ArrayLike
-    h: ArrayLike
-    lower: ArrayLike
-    upper: ArrayLike
+    target: np.ndarray
+    A: np.ndarray
+    b: np.ndarray
+    G: np.ndarray
+    h: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(
+            self,
+            target: ArrayLike,
+            A: ArrayLike,
+            b: ArrayLike,
+            G: ArrayLike,
+            h: ArrayLike,
+            lower: ArrayLike,
+            upper: ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for name in self.__dataclass_fields__:
@@ -111,10 +125,10 @@ class Solution:
     y: np.ndarray
     z: np.ndarray
     w: np.ndarray
-    slack: np.ndarray = field(default=None)
+    slack: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        if self.slack is None:
+        if not len(self.slack):
             object.__setattr__(self, "slack", np.zeros_like(self.problem.b))
 
     @cached_property

@@ -83,7 +83,17 @@ def checked_run(
     return system.configuration(q0), settings.numbers(), steps
 
 
-def truncated(status: int, taken: int, dt: float, q, x, error, distance, rows, slack) -> Motion:
+def truncated(
+    status: int,
+    taken: int,
+    dt: float,
+    q: np.ndarray,
+    x: np.ndarray,
+    error: np.ndarray,
+    distance: np.ndarray,
+    rows: np.ndarray,
+    slack: np.ndarray,
+) -> Motion:
     """Motion of the steps that were taken."""
     reason = None if status == DONE else f"{list(Ending)[status]} at t = {taken * dt:.3f} s"
     k = taken + 1

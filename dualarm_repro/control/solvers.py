@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import daqp
 import numpy as np
@@ -55,7 +56,7 @@ def _proxqp(problem: QuadraticProgram) -> Solution:
     return Solution(problem, qp.results.x, qp.results.y, z[:k], z[k:])
 
 
-def _through_qpsolvers(name: str, **settings: float) -> Callable[[QuadraticProgram], Solution]:
+def _through_qpsolvers(name: str, **settings: Any) -> Callable[[QuadraticProgram], Solution]:
     def solve(problem: QuadraticProgram) -> Solution:
         p = problem
         stated = qpsolvers.Problem(
@@ -70,7 +71,8 @@ def _through_qpsolvers(name: str, **settings: float) -> Callable[[QuadraticProgr
         if not found.found or found.x is None:
             raise NoSolution(name, problem, "none found")
         y, z = (np.zeros(0) if part is None else part for part in (found.y, found.z))
-        return Solution(problem, found.x, y, z, found.z_box)
+        w = np.zeros(p.size) if found.z_box is None else found.z_box
+        return Solution(problem, found.x, y, z, w)
 
     return solve
 

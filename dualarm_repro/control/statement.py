@@ -24,7 +24,15 @@ def statement(n: int, m: int, k: int) -> tuple[Any, dict[str, Any], Any, list[An
     import cvxpy as cp
 
     x = cp.Variable(n)
-    shapes = {"target": n, "A": (m, n), "b": m, "G": (k, n), "h": k, "lower": n, "upper": n}
+    shapes: dict[str, Any] = {
+        "target": n,
+        "A": (m, n),
+        "b": m,
+        "G": (k, n),
+        "h": k,
+        "lower": n,
+        "upper": n,
+    }
     p = {
         name: cp.Parameter(shape) for name, shape in shapes.items() if 0 not in np.atleast_1d(shape)
     }

@@ -87,11 +87,11 @@ def simulate_network(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
-    status, taken, *samples = run_network(
+    status, taken, q, x, error, distance, rows = run_network(
         *(system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt),
         *(noise, disturbance),
     )
-    return truncated(status, taken, dt, *samples, np.zeros(steps))
+    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))
 
 
 def divergence_time(gamma: float, dt: float) -> float:

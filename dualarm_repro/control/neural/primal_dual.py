@@ -151,8 +151,7 @@ def simulate_primal_dual(
         raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
     if iterations < 1:
         raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
-    run = run_primal_dual(
+    status, taken, q, x, error, distance, rows = run_primal_dual(
         *(system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt, noise, disturbance)
     )
-    status, taken, *samples = run
-    return truncated(status, taken, dt, *samples, np.zeros(steps))
+    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))
