@@ -32,11 +32,13 @@ _COMPUTING = frozenset(
         "assumptions",
         "formula",
         "printed",
+        "printed_values",
         "rules",
         "shares",
         "statistical_rules",
         "streams",
         "verdict",
+        "witnesses",
     )
 )
 _BOOKKEEPING = frozenset(f"{ROOT}.{name}" for name in ("sources", "cache_folder", "tracking"))

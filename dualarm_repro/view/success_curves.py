@@ -34,22 +34,3 @@ def rate_figure(
             ax.set(xscale="log", xlabel=xlabel, ylabel="success [%]", title=title, ylim=(-4, 104))
         np.atleast_1d(axes)[0].legend(loc="center left", fontsize="small")
     return figure
-
-
-def bar_figure(
-    groups: Mapping[str, Mapping[str, float]], ylabel: str, mark: tuple[float, str]
-) -> Any:
-    """Grouped bars: one cluster per name, one bar per group, in percent; ``mark`` is a level."""
-    names = list(next(iter(groups.values())))
-    width = 0.8 / len(groups)
-    with house_style():
-        figure, ax = plt.subplots(figsize=(9, 3.8))
-        for k, (group, values) in enumerate(groups.items()):
-            places = np.arange(len(names)) + (k - 0.5 * (len(groups) - 1)) * width
-            heights = [100.0 * values[name] for name in names]
-            ax.bar(places, heights, width, color=PALETTE[k], label=group)
-        ax.axhline(mark[0], color=BLACK, ls="--", lw=1, label=mark[1])
-        ax.set(xticks=range(len(names)), xticklabels=names, ylabel=ylabel, xlabel="method")
-        ax.set_ylim(0, 104)
-        ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    return figure

@@ -81,7 +81,7 @@ def falsify(scale, monkeypatch, spread=2.0):
 
 
 def test_clocks_are_found():
-    assert reads_a_clock("dualarm_repro.papers.qiu.pages.master_slave.hull")
+    assert reads_a_clock("dualarm_repro.planning.checks.query_cost")
     assert not reads_a_clock("dualarm_repro.papers.qiu.reading")
     assert len(ITEMS) > 20
     assert len(STUDIES) > 5

@@ -9,12 +9,15 @@ import numpy as np
 import pinocchio as pin
 
 from ...arms import Arm, load_arm
+from ...arms.altered import altered
 from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
 from ...errors import DataFileError
 from ...ledger import REGISTRY
 from ...ledger.formula import Formula
+from ...ledger.printed_values import PrintedValue, printed_numbers
 from ...planning.field.obstacles import Obstacles, obstacles_of
+from ...planning.tasks.elbow_branches import shoulder, straight_reach
 from ...planning.tasks.random_tasks import blocked_task
 from ...scene import HalfSpace, PlacedArm, Scene, Sphere
 from ...tracking import memo
@@ -31,90 +34,29 @@ MARGIN = 0.03  # clearance of the ends of random tasks [m]
 FACE_VALUE, RECONSTRUCTION = "face value", "reconstruction"
 
 
-def printed(item: str, *keys: str) -> np.ndarray:
-    """Numbers that an item prints under one key, or under each of several keys."""
-    found = REGISTRY.printed(f"qiu.{item}")
-    rows = np.array([found[key] for key in keys], dtype=float)
-    return rows[0] if len(keys) == 1 else rows
-
-
 class _Printed:
     """Inputs and points of sections 4.1 and 4.2 under their symbols; lengths in metres."""
+
+    start = PrintedValue("qiu.claim_start", "q")  # joints of both arms (6,) [rad]
+    master_goal = PrintedValue("qiu.claim_goal", "tcp")  # of the tip (3,)
+    slave_goal = PrintedValue("qiu.claim_slave_task", "goal")
+    centres = PrintedValue("qiu.claim_obstacles", "centres")  # of the spheres (2, 3)
+    radius = PrintedValue("qiu.claim_obstacles", "radius")
+    zeta = PrintedValue("qiu.claim_zeta", "zeta")  # attractive gain
+    eta0 = PrintedValue("qiu.claim_eta0", "eta0")  # initial repulsive gain
+    alpha0 = PrintedValue("qiu.claim_alpha0", "alpha0")  # first step, in the unit assumed for it
+    threshold = PrintedValue("qiu.claim_d", "d")  # of the attraction
+    influence = PrintedValue("qiu.claim_rho0", "rho0")  # range of the repulsion
+    goals = PrintedValue("qiu.claim_goals15", "count")  # that the methods are compared on
+    trap = PrintedValue("qiu.claim_trad_stuck", "tcp")  # of the one-way search (3,)
+    #: Where the halves of both arms are said to end, forward and backward (2, 3).
+    meeting = PrintedValue("qiu.claim_bi_meet", "forward", "backward")
+    slave_meeting = PrintedValue("qiu.claim_slave_meet", "forward", "backward")
 
     @property
     def bases(self) -> dict[str, np.ndarray]:
         """Positions (3,) of both bases."""
-        return dict(zip(ARMS, printed("claim_bases", *ARMS), strict=True))
-
-    @property
-    def start(self) -> np.ndarray:
-        """Joints of both arms at the start (6,) [rad]."""
-        return printed("claim_start", "q")
-
-    @property
-    def master_goal(self) -> np.ndarray:
-        """Goal of the master's tip (3,)."""
-        return printed("claim_goal", "tcp")
-
-    @property
-    def slave_goal(self) -> np.ndarray:
-        """Goal of the slave's tip (3,)."""
-        return printed("claim_slave_task", "goal")
-
-    @property
-    def centres(self) -> np.ndarray:
-        """Of the spheres (2, 3)."""
-        return printed("claim_obstacles", "centres")
-
-    @property
-    def radius(self) -> float:
-        """Of the spheres."""
-        return float(printed("claim_obstacles", "radius"))
-
-    @property
-    def zeta(self) -> float:
-        """Attractive gain."""
-        return float(printed("claim_zeta", "zeta"))
-
-    @property
-    def eta0(self) -> float:
-        """Initial repulsive gain."""
-        return float(printed("claim_eta0", "eta0"))
-
-    @property
-    def alpha0(self) -> float:
-        """First step, in the unit that is assumed for it."""
-        return float(printed("claim_alpha0", "alpha0"))
-
-    @property
-    def threshold(self) -> float:
-        """d of the attraction."""
-        return float(printed("claim_d", "d"))
-
-    @property
-    def influence(self) -> float:
-        """rho_0, the range of the repulsion."""
-        return float(printed("claim_rho0", "rho0"))
-
-    @property
-    def goals(self) -> int:
-        """How many goals the methods are compared on."""
-        return int(printed("claim_goals15", "count"))
-
-    @property
-    def trap(self) -> np.ndarray:
-        """Where the one-way search is said to be trapped (3,)."""
-        return printed("claim_trad_stuck", "tcp")
-
-    @property
-    def meeting(self) -> np.ndarray:
-        """Where the halves of the master are said to end, forward and backward (2, 3)."""
-        return printed("claim_bi_meet", "forward", "backward")
-
-    @property
-    def slave_meeting(self) -> np.ndarray:
-        """Where the halves of the slave are said to end, forward and backward (2, 3)."""
-        return printed("claim_slave_meet", "forward", "backward")
+        return dict(zip(ARMS, printed_numbers("qiu.claim_bases", *ARMS), strict=True))
 
 
 PRINTED = _Printed()
@@ -140,16 +82,7 @@ def arm_in_use(tool: float = 0.0, radii: tuple[float, ...] | None = None) -> Arm
     """The arm, its flange moved out by ``tool`` [m] and its links of other ``radii`` [m]."""
     if tool == 0.0 and radii is None:
         return load_arm(ROBOT)
-    made = robot()
-    joints = [*made.joints[:-1], made.joints[-1].model_copy(update={"d": made.joints[-1].d + tool})]
-    used = [c.radius for c in made.capsules] if radii is None else radii
-    capsules = [
-        capsule.model_copy(update={"radius": radius})
-        for capsule, radius in zip(made.capsules, used, strict=True)
-    ]
-    changed = made.model_copy(update={"joints": joints, "capsules": capsules})
-    thick = "" if radii is None else "-" + "-".join(f"{radius:g}" for radius in radii)
-    return Arm.from_dh(f"{ROBOT}-{tool:g}{thick}", changed)
+    return altered(ROBOT, robot(), tool, radii)
 
 
 def placed(
@@ -205,8 +138,7 @@ def random_task(count: int, rng: np.random.Generator) -> tuple[Scene, np.ndarray
     """Scene of the master with ``count`` spheres, a start and a goal (6,): both clear, the straight
     line blocked."""
     arm = placed("master")
-    centre = shoulder(arm.placement.translation)
-    return blocked_task(arm, centre, count, MARGIN, rng, [_turning(arm)])
+    return blocked_task(arm, shoulder(arm), count, MARGIN, rng, [_turning(arm)])
 
 
 def _turning(arm: PlacedArm) -> tuple[str, str]:
@@ -214,27 +146,14 @@ def _turning(arm: PlacedArm) -> tuple[str, str]:
     return (f"{arm.name}/capsule_1_joint_1", "floor")
 
 
-def lengths() -> dict[str, float]:
-    """Link lengths and offsets of the arm [m]."""
-    joints = robot().joints
-    names = (("d1", 0, "d"), ("a2", 1, "a"), ("a3", 2, "a"), ("d4", 3, "d"), ("d6", 5, "d"))
-    return {name: getattr(joints[k], kind) for name, k, kind in names}
-
-
-def shoulder(base: np.ndarray) -> np.ndarray:
-    """Where axes 1 and 2 cross, in the world (3,) [m]."""
-    return base + np.array([0.0, 0.0, lengths()["d1"]])
-
-
 def reach() -> float:
-    """Largest distance of the flange from the shoulder: the straight arm [m]."""
-    size = lengths()
-    return size["a2"] + float(np.hypot(size["d4"], size["a3"])) + size["d6"]
+    """Largest distance of the flange from the shoulder [m]."""
+    return straight_reach(load_arm(ROBOT))
 
 
 def shoulder_to_goal() -> float:
     """Distance of the printed goal of the master from its shoulder [m]."""
-    return float(np.linalg.norm(PRINTED.master_goal - shoulder(PRINTED.bases["master"])))
+    return float(np.linalg.norm(PRINTED.master_goal - shoulder(placed("master"))))
 
 
 def goal_to_surface() -> np.ndarray:

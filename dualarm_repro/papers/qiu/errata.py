@@ -9,18 +9,17 @@ from scipy.spatial.transform import Rotation
 
 from ...ledger import REGISTRY, Proof
 from ...ledger.printed import read_number
+from ...planning.checks.hull_cover import protrusions
 from ...planning.field.control_points import end_effector
 from ...planning.field.repulsive_force import inverse_distance_force
-from ...planning.search.bidirectional import repulsive_torque, surroundings_at
 from ...planning.search.failure import Failure, classify
+from ...planning.search.search_field import balance_distance, repulsive_torque_at
 from ...planning.search.search_problem import search_problem
 from ...planning.tasks.tip_goal import nearest_posture
 from .document import PRINTED, SEED, goal_to_surface, placed, reach, repelling, shoulder_to_goal
 from .pages.geometry.task import gap_by_turn
-from .pages.master_slave.hull import protrusions
 from .pages.two_sided.halves import truth
-from .reading import CONTROL_POINTS, Hull, Improved, Splice, Traditional
-from .two_arms import Slave, executed
+from .reading import CONTROL_POINTS, Hull, Improved, Slave, Splice, Traditional
 
 _DIRECTIONS = 400
 
@@ -126,16 +125,14 @@ def gains_against_points() -> Proof:
     """
     arm, start, eta0 = placed("master"), PRINTED.start, PRINTED.eta0
     largest, ratios = PRINTED.threshold * PRINTED.zeta, []
-    made = search_problem(arm, start, start, repelling(), Traditional.nominal().settings())
+    reading = Traditional.nominal(gain_ratio=eta0 / PRINTED.zeta)
+    made = search_problem(arm, start, start, repelling(), reading.settings())
     target = arm.placement.inverse().act(PRINTED.trap)
-    gains = np.full(len(made.points.joint), eta0)
     for rotation in _rotations():
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = rotation, target
         for q in arm.arm.ik(pose):
-            found = surroundings_at(made, 0, q, 0)
-            torque = repulsive_torque(made, found, gains)
-            ratios.append(float(np.linalg.norm(torque)) / largest)
+            ratios.append(float(np.linalg.norm(repulsive_torque_at(made, q))) / largest)
     points = np.vstack([PRINTED.trap, PRINTED.meeting])
     surface = [float(np.linalg.norm(p - PRINTED.centres[0]) - PRINTED.radius) for p in points]
     flange = inverse_distance_force(surface[0], eta0, PRINTED.influence, 1e-3)
@@ -150,22 +147,13 @@ def gains_against_points() -> Proof:
             "force_on_the_flange": float(flange),
             "largest_attraction": largest,
             "distances_of_printed_points": surface,
-            "balance_distance": _balance_distance(),
+            "balance_distance": balance_distance(eta0, PRINTED.influence, largest, 0.5),
         },
     )
 
 
 def _rotations() -> np.ndarray:
     return Rotation.random(_DIRECTIONS, rng=np.random.default_rng(SEED)).as_matrix()
-
-
-def _balance_distance() -> float:
-    """Distance at which the force on one point equals the largest attraction (lever of half a
-    metre).
-    """
-    rho = np.linspace(0.01, PRINTED.influence, 100_001)
-    force = 0.5 * PRINTED.eta0 * (1.0 / rho - 1.0 / PRINTED.influence) / rho**2
-    return float(rho[np.abs(force - PRINTED.threshold * PRINTED.zeta).argmin()])
 
 
 @REGISTRY.proves("qiu.goal_inside_range")
@@ -225,8 +213,9 @@ def collision_scope() -> Proof:
     """The joint plan of both arms at face value: clear at the control points, not for whole
     links.
     """
-    plan = Slave.nominal().dual_plan()
-    check = executed(plan)
+    reading = Slave.nominal()
+    plan = reading.dual_plan()
+    check = plan.contact(reading.scene())
     seen = plan.slave.control_clearance
     return Proof(
         "one and the same plan is free for the control points and collides with whole links, so "

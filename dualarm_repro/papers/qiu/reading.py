@@ -12,18 +12,29 @@ from ...errors import InputError
 from ...ledger.assumptions import Chosen, FromAssumptions
 from ...planning.field.control_points import end_effector
 from ...planning.field.hull_obstacle import JointCircles
-from ...planning.search.bidirectional import repulsive_torque, surroundings_at
 from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from ...planning.search.bidirectional_settings import BidirectionalSettings
+from ...planning.search.dual_search import DualSearch, search_around
+from ...planning.search.search_field import balance_gain
 from ...planning.search.search_plan import SearchPlan
-from ...planning.search.search_problem import search_problem
 from ...planning.search.splice import smoothed
+from ...planning.search.variants import IMPROVED, TRADITIONAL, Variant
+from ...planning.tasks.elbow_branches import BRANCHES, branch_posture, pulled_back, wrist_reach
 from ...planning.tasks.random_goals import GoalSet, draw_goals
 from ...planning.tasks.tip_goal import nearest_posture
-from ...scene import PlacedArm
+from ...scene import PlacedArm, Scene
 from ...tracking import memo
-from .document import PRINTED, master_arm, placed, repelling, robot, truth_scene
-from .postures import BRANCHES, branch_posture, pulled_back, wrist_reach
+from .document import (
+    FACE_VALUE,
+    PRINTED,
+    RECONSTRUCTION,
+    dual_scene,
+    master_arm,
+    placed,
+    repelling,
+    robot,
+    truth_scene,
+)
 
 #: Column of a study that the readings of success look at.
 JUDGED_BY = {"planner_and_truth": "truth", "planner": "planner"}
@@ -32,6 +43,8 @@ JUDGED_BY = {"planner_and_truth": "truth", "planner": "planner"}
 HULL_FRAMES = (1, 2, 3, 4, 5, 7)
 #: Share of its reach at which a posture still bends the elbow.
 _BENT = 0.9995
+#: Samples that the spline needs.
+SHORTEST = 5
 
 
 class PointSet(NamedTuple):
@@ -56,30 +69,6 @@ CONTROL_POINTS = {
     "elbow_wrist": PointSet((3, 5), (1, 2), ("3", "5")),
     "four_with_link_radii": PointSet((3, 4, 5, 7), (0, 0, 1, 2), ("3", "4", "5", "6"), thick=True),
 }
-
-
-@dataclass(frozen=True)
-class Variant:
-    """Which of the three improvements a search uses."""
-
-    variable_gain: bool = True
-    adaptive_step: bool = True
-    two_sided: bool = True
-
-    @property
-    def name(self) -> str:
-        """``traditional``, or the letters of the improvements: V gain, A step, B both ends."""
-        letters = zip("VAB", (self.variable_gain, self.adaptive_step, self.two_sided), strict=True)
-        return "".join(letter for letter, on in letters if on) or "traditional"
-
-
-ONE_SIDED, IMPROVED = Variant(False, False, False), Variant()
-VARIANTS = tuple(
-    Variant(gain, step, both)
-    for both in (False, True)
-    for gain in (False, True)
-    for step in (False, True)
-)
 
 
 class Reading(FromAssumptions):
@@ -109,8 +98,8 @@ class Goal(Reading):
         if self.master_goal == "best_effort":
             near = Goal("pulled_back", self.goal_radius, self.goal_branch, self.goal_wrist)
             return _best_effort(near)
-        radius = min(self.goal_radius, _BENT * wrist_reach(self.arm(), self.goal_wrist))
-        inside = pulled_back(PRINTED.master_goal, self.arm().placement.translation, radius)
+        radius = min(self.goal_radius, _BENT * wrist_reach(self.arm().arm, self.goal_wrist))
+        inside = pulled_back(self.arm(), PRINTED.master_goal, radius)
         if self.master_goal == "pulled_back":
             return self.posture_at(inside)
         found = self.posture_at(PRINTED.master_goal)
@@ -137,7 +126,7 @@ class GoalBox(Goal):
         """As many goals as are printed."""
         arm, rng = self.arm(), np.random.default_rng(seed)
         centre, scene = end_effector(arm, self.posture()), truth_scene([arm])
-        return draw_goals(scene, self.posture_at, centre, self.goal_set, PRINTED.goals, rng)
+        return draw_goals(scene, self.posture_at, centre, self.goal_set, int(PRINTED.goals), rng)
 
 
 @dataclass(frozen=True)
@@ -154,7 +143,7 @@ class Search(Goal):
     search_cap: float
 
     #: The improvements that it uses unless another variant is asked for.
-    variant: ClassVar[Variant] = ONE_SIDED
+    variant: ClassVar[Variant] = TRADITIONAL
 
     def __post_init__(self) -> None:
         if self.step_rule != "unit_vector":
@@ -209,6 +198,10 @@ class Search(Goal):
         """The master from its start to another goal (6,) [rad]."""
         chosen = self.settings(variant)
         return plan_bidirectional_compiled(self.arm(), PRINTED.start, goal, repelling(), chosen)
+
+    def readings(self) -> dict[str, SearchPlan]:
+        """The same at face value and in the reconstruction."""
+        return {FACE_VALUE: self.plan(), RECONSTRUCTION: self.reconstructed().plan()}
 
     def reconstructed(self) -> Self:
         """The second reading: the gain ratio of the scale that the printed trap gives, and control
@@ -270,7 +263,9 @@ class Splice(Reading):
     end_weight: float
 
     def smooth(self, path: np.ndarray) -> np.ndarray:
-        """A path (N, 6) [rad] after the spline."""
+        """A path (N, 6) [rad] after the spline; one too short for it as it is."""
+        if len(path) < SHORTEST:
+            return path
         return smoothed(path, self.smoothing_weight, self.end_weight)
 
 
@@ -318,23 +313,52 @@ class SlaveGoal(Reading):
         return self.slave_postures()[self.slave_branch]
 
 
+@dataclass(frozen=True)
+class Slave(Improved, Splice, Hull, SlaveGoal):
+    """The search of the slave around the hull of the moving master, and that of the master."""
+
+    schedule_steps: float
+    slave_obstacles: str
+    floor: str
+
+    def dual_plan(self) -> DualSearch:
+        """Both arms from their starts to their goals."""
+        return _dual_plan(self)
+
+    def dual_readings(self) -> dict[str, DualSearch]:
+        """The same at face value and in the reconstruction."""
+        return {FACE_VALUE: self.dual_plan(), RECONSTRUCTION: self.reconstructed().dual_plan()}
+
+    def around(self, master: SearchPlan, goal: np.ndarray) -> DualSearch:
+        """The slave from its start to a goal (6,) [rad] around the master on its path."""
+        return search_around(
+            master,
+            placed("slave"),
+            (PRINTED.start, goal),
+            repelling(self.floor == "half_space", self.slave_obstacles != "master"),
+            self.settings(),
+            self.circles(),
+            round(self.schedule_steps),
+            self.smooth,
+        )
+
+    def scene(self, radii: tuple[float, ...] | None = None) -> Scene:
+        """Both arms among the spheres, links of other ``radii`` [m]."""
+        return dual_scene(self.master_goal, radii)
+
+
+@memo(512)
+def _dual_plan(reading: Slave) -> DualSearch:
+    return reading.around(reading.plan(), reading.slave_posture())
+
+
 @memo()
 def balance_ratio() -> float:
     """eta_0/zeta at which repulsion of the flange at the printed trap is as large as the largest
     attraction.
 
-    d zeta = |J^T F_rep| with the flange at the trap, wrist angles zero. Sizes are compared, not
-    directions: it is a scale taken from one printed point, and no balance of forces.
+    Wrist angles are zero. It is a scale taken from one printed point, and no balance of forces.
     """
-    arm, threshold = placed("master"), PRINTED.threshold
+    arm = placed("master")
     q = branch_posture(arm, PRINTED.trap, "front_shallow")
-    chosen = BidirectionalSettings(
-        attraction={"gain": 1.0, "threshold": threshold},
-        repulsion={"gain": 1.0, "influence": PRINTED.influence},
-        control_points=(7,),
-        step={"length": PRINTED.alpha0},
-        ending={"tolerance": 1.0, "search_limit": 1, "stuck_searches": 1},
-    )
-    made = search_problem(arm, q, q, repelling(), chosen)
-    torque = repulsive_torque(made, surroundings_at(made, 0, q, 0), np.ones(1))
-    return threshold / float(np.linalg.norm(torque))
+    return balance_gain(arm, q, repelling(), PRINTED.threshold, PRINTED.influence)

@@ -7,20 +7,20 @@ import pytest
 
 from dualarm_repro.papers import load
 from dualarm_repro.papers.qiu.document import PRINTED, dual_scene, placed, truth_scene
-from dualarm_repro.papers.qiu.pages.master_slave.hull import protrusions
 from dualarm_repro.papers.qiu.reading import (
-    ONE_SIDED,
     GoalBox,
     Hull,
     Improved,
     Links,
+    Slave,
     Traditional,
 )
 from dualarm_repro.papers.qiu.studies.improvements import RATIOS, nearest
-from dualarm_repro.papers.qiu.two_arms import Slave, both_arms, executed
 from dualarm_repro.planning.checks.contact_check import contact_check
+from dualarm_repro.planning.checks.hull_cover import protrusions
 from dualarm_repro.planning.search.bidirectional import repulsive_torque, surroundings_at
 from dualarm_repro.planning.search.failure import Failure, classify
+from dualarm_repro.planning.search.variants import TRADITIONAL
 from dualarm_repro.planning.trials.campaign import campaign
 from dualarm_repro.scene import JointPath
 
@@ -34,7 +34,7 @@ def test_improved_is_at_least_as_good_as_traditional():
         scene = truth_scene([reading.arm()])
         two, one = (
             campaign(lambda q, v=v, r=reading: r.plan_to(q, v), goals, scene)
-            for v in (None, ONE_SIDED)
+            for v in (None, TRADITIONAL)
         )
         assert sum(two.planner) >= sum(one.planner)
 
@@ -53,20 +53,21 @@ def test_goal_is_displaced_by_the_ratio_in_proportion():
 
 
 def test_replay_reproduces_the_reported_clearance():
-    plan = Slave.nominal().reconstructed().dual_plan()
-    reported = executed(plan)
-    master, slave = both_arms(plan)
+    reading = Slave.nominal().reconstructed()
+    plan, scene = reading.dual_plan(), reading.scene()
+    reported = plan.contact(scene)
+    master, slave = plan.played()
     moving = dual_scene().replaying("master", JointPath(master))
     replayed = contact_check(moving, slave, max_step=0.005)
     assert replayed.clearance["arms"] == pytest.approx(reported.clearance["arms"], abs=1e-3)
-    other = executed(plan, "uniform")
+    other = plan.contact(scene, "uniform")
     assert abs(other.clearance["arms"] - reported.clearance["arms"]) > 1e-3
 
 
 def test_thinner_links_leave_more_room():
-    plan = Slave.nominal().reconstructed().dual_plan()
-    thin = Links.nominal(link_radius_scale=0.8).radii
-    assert executed(plan, radii=thin).smallest > executed(plan).smallest
+    reading = Slave.nominal().reconstructed()
+    plan, thin = reading.dual_plan(), Links.nominal(link_radius_scale=0.8).radii
+    assert plan.contact(reading.scene(thin)).smallest > plan.contact(reading.scene()).smallest
 
 
 def test_protrusion_is_zero_for_circles_as_thick_as_a_wall():

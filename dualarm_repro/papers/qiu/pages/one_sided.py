@@ -9,27 +9,28 @@ import numpy as np
 import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
+from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.path_measures import WINDOW, chatter, until_rest
+from ....planning.field.control_points import end_effector
 from ....planning.search.failure import classify
 from ....planning.search.search_plan import SearchPlan
+from ....view.arm_scenes import played_search, search_panel
 from ....view.scene3d import Scene3D
 from ....view.search_curves import coordinate_figure
 from ....view.style import BLACK, GREEN
 from ....view.tip_paths import tip_path_figure
 from ...wording import point
 from ..document import FACE_VALUE, PRINTED, RECONSTRUCTION, full_step, spheres
-from ..drawings import among_spheres, played
 from ..reading import Traditional, VariableGain, balance_ratio
 from ..studies.improvements import IMPROVEMENTS, nearest
-from ..witnesses import witnesses
 
 checks = partial(REGISTRY.checks, page="qiu/one_sided")
 
 
 def _both(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
     """The traditional search at face value and in the reconstruction."""
-    reading = Traditional.of(assumed)
-    return reading.plan(), reading.reconstructed().plan()
+    face, other = Traditional.of(assumed).readings().values()
+    return face, other
 
 
 def _outcome(plan: SearchPlan) -> dict[str, Any]:
@@ -162,7 +163,7 @@ def lambda_effect(assumed: Assumed) -> Result:
             f"{limits['clearly'].value:.0%} or less of what it was in {int(calmed.sum())} of them"
             + (f", in the median to {middle:.0%}." if middle is not None else ".")
         ),
-        witnesses=witnesses(
+        witnesses=cell_witnesses(
             "qiu.claim_lambda_effect",
             obtained,
             loud,
@@ -225,11 +226,12 @@ def path_among_spheres(assumed: Assumed) -> Result:
     """Flange path and postures of the one-way search."""
     face, other = _both(assumed)
     trap = PRINTED.trap
+    goals = [end_effector(plan.placed, plan.problem.goal) for plan in (face, other)]
     panels = [
-        among_spheres(
-            title, plan, {"flange": plan.tcp}, {"goal": _goal_tip(plan), "printed trap": trap}
+        search_panel(title, plan, {"flange": plan.tcp}, {"goal": goal, "printed trap": trap})
+        for title, plan, goal in zip(
+            (FACE_VALUE, RECONSTRUCTION), (face, other), goals, strict=True
         )
-        for title, plan in ((FACE_VALUE, face), (RECONSTRUCTION, other))
     ]
     away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2)
     clearance = away.min() - PRINTED.radius
@@ -250,20 +252,15 @@ def path_among_spheres(assumed: Assumed) -> Result:
         alt="Two panels with two spheres, postures of the arm and the path of its flange; the "
         "goal and the printed trap are marked.",
         figure=lambda: tip_path_figure(panels, list(spheres().values()), azim=35),
-        scene=lambda: _scene(face),
+        scene=lambda: _scene(face, goals[0]),
     )
 
 
-def _goal_tip(plan: SearchPlan) -> np.ndarray:
-    arm = plan.problem.placed
-    return arm.placement.act(arm.arm.positions(plan.problem.goal))
-
-
-def _scene(plan: SearchPlan) -> Scene3D:
+def _scene(plan: SearchPlan, goal: np.ndarray) -> Scene3D:
     """The one-way search, played."""
-    made = played("The one-way search and its goal (black).", plan)
-    made.add_path("flange", plan.tcp, GREEN)
-    made.add_sphere("goal", _goal_tip(plan), 0.012, BLACK)
+    curves = {"flange": (plan.tcp, GREEN)}
+    made = played_search("The one-way search and its goal (black).", plan, spheres(), curves)
+    made.add_sphere("goal", goal, 0.012, BLACK)
     return made
 
 

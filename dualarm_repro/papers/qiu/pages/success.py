@@ -10,25 +10,26 @@ import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result, Rounds
 from ....ledger.shares import Share
-from ....planning.checks.path_measures import bending, until_rest
+from ....ledger.witnesses import cell_witnesses
+from ....planning.checks.smoothness import bending_of, least_singular_value, moving_part
 from ....planning.search.failure import Failure
-from ....planning.search.search_plan import SearchPlan
+from ....planning.search.variants import VARIANTS
 from ....planning.trials.yardstick import YARDSTICK
-from ....view.success_curves import bar_figure, rate_figure
+from ....view.shares import shares_figure
+from ....view.success_curves import rate_figure
+from ....view.success_table import judged_share, success_row
 from ..document import PRINTED, SEED, full_step, placed
-from ..reading import JUDGED_BY, VARIANTS, GoalBox, Improved, Splice, Traditional
+from ..reading import JUDGED_BY, SHORTEST, GoalBox, Improved, Splice, Traditional
 from ..studies.ablation import ABLATION
 from ..studies.dual_pairs import PAIR_POINTS, PAIR_RATIOS, PAIRS
 from ..studies.improvements import nearest
 from ..studies.random_scenes import SCENE_RATIOS, SCENES
-from ..witnesses import witnesses
 
 checks = partial(REGISTRY.checks, page="qiu/success")
 #: Columns of the studies of both methods that the document compares.
 COMPARED = {"traditional": "traditional", "improved": "VAB"}
 _BRANCH, _POINTS = "front_shallow", "elbow_wrist_flange"
 _SPACES = ("joints", "tip")
-_SHORTEST = 5
 
 
 def better_cells(success_rule: str) -> tuple[pd.DataFrame, pd.Series]:
@@ -105,7 +106,7 @@ def _cell_witnesses(
     item_id: str, obtained: dict[str, Any], table: pd.DataFrame, better: pd.Series, rule: str
 ) -> list[dict[str, Any]]:
     judged = JUDGED_BY[rule]
-    return witnesses(
+    return cell_witnesses(
         item_id, obtained, table, better, (*_SHOWN, f"traditional_{judged}", f"VAB_{judged}")
     )
 
@@ -156,24 +157,20 @@ def success_and_smoothness(assumed: Assumed) -> Result:
     rule = assumed["success_rule"]
     table, better = better_cells(rule)
     readings, splice = [Traditional.of(assumed), Improved.of(assumed)], Splice.of(assumed)
-    goals, arm = GoalBox.of(assumed).draw(SEED), readings[1].arm().arm
-    units = {"joints": PRINTED.alpha0, "tip": full_step()}
+    goals, spacing = GoalBox.of(assumed).draw(SEED), {"joints": PRINTED.alpha0, "tip": full_step()}
     rows, least = [], np.inf
     for q in goals.q:
         plans = [reading.plan_to(q) for reading in readings]
-        paths = [_until_rest(plan) for plan in plans]
-        if not plans[1].reached or min(map(len, paths)) < _SHORTEST:
+        if not plans[1].reached or min(len(moving_part(plan)) for plan in plans) < SHORTEST:
             continue
-        paths = [splice.smooth(path) for path in paths]
-        sigma = np.linalg.svd(arm.jacobian(paths[1])[:, :3], compute_uv=False)[:, -1]
-        least = min(least, float(sigma.min()))
         rows.append(
             {
-                f"{method}_{space}": bending(points, units[space])
-                for method, path in zip(COMPARED, paths, strict=True)
-                for space, points in (("joints", path), ("tip", arm.positions(path)))
+                f"{method}_{space}": bent
+                for method, plan in zip(COMPARED, plans, strict=True)
+                for space, bent in bending_of(plan, splice.smooth, spacing).items()
             }
         )
+        least = min(least, least_singular_value(plans[1], splice.smooth(plans[1].path)))
     columns = [f"{method}_{space}" for method in COMPARED for space in _SPACES]
     shown = pd.DataFrame(rows, columns=columns)
     smoother = {s: shown[f"improved_{s}"] < shown[f"traditional_{s}"] for s in _SPACES}
@@ -206,13 +203,6 @@ def success_and_smoothness(assumed: Assumed) -> Result:
         ),
         witnesses=_cell_witnesses("qiu.claim_success_rate", obtained, table, better, rule),
     )
-
-
-def _until_rest(plan: SearchPlan) -> np.ndarray:
-    """The path of a search, a failed one only as far as where it rests."""
-    if plan.reached:
-        return plan.path
-    return plan.path[: until_rest(plan.path, PRINTED.alpha0) + 1]
 
 
 @checks(
@@ -252,7 +242,9 @@ def local_minima(assumed: Assumed) -> Result:
             + ", ".join(f"{int(found.sum())} of the {kind}" for kind, found in solved.items())
             + "."
         ),
-        witnesses=witnesses("qiu.claim_local_min", obtained, minima, rescued, ("scene", "spheres")),
+        witnesses=cell_witnesses(
+            "qiu.claim_local_min", obtained, minima, rescued, ("scene", "spheres")
+        ),
     )
 
 
@@ -261,49 +253,33 @@ def scenes_table() -> pd.DataFrame:
     how the one-sided variants failed."""
     table = SCENES.load()
     rows = [
-        {"method": name, "eta_0/zeta": ratio} | _rates(table, f"{name}_{ratio:g}")
+        {"method": name, "eta_0/zeta": ratio} | success_row(table, f"{name}_{ratio:g}")
         for ratio in SCENE_RATIOS
         for name in (variant.name for variant in VARIANTS)
     ]
-    return pd.DataFrame([*rows, {"method": "RRT-Connect"} | _rates(table, YARDSTICK)])
+    return pd.DataFrame([*rows, {"method": "RRT-Connect"} | success_row(table, YARDSTICK)])
 
 
 def scenes_figure() -> Any:
     """True rates of every variant in the random scenes, by the ratio of the gains."""
     table = SCENES.load()
-    groups = {
-        f"eta_0/zeta = {ratio:g}": {
-            variant.name: float(table[f"{variant.name}_{ratio:g}_truth"].mean())
-            for variant in VARIANTS
+    rows = {
+        variant.name: {
+            f"eta_0/zeta = {ratio:g}": judged_share(table, f"{variant.name}_{ratio:g}", "truth")
+            for ratio in SCENE_RATIOS
         }
-        for ratio in SCENE_RATIOS
+        for variant in VARIANTS
     }
-    yardstick = 100.0 * table[f"{YARDSTICK}_truth"].mean()
-    return bar_figure(groups, "true success [%]", (yardstick, "RRT-Connect"))
+    yardstick = judged_share(table, YARDSTICK, "truth").value
+    return shares_figure(rows, "true success", (yardstick, "RRT-Connect"))
 
 
 def pairs_table() -> pd.DataFrame:
     """Rates of master and slave on random pairs of goals [%], by control points and gain ratio."""
     table = PAIRS.load()
     rows = [
-        {"control points": points, "eta_0/zeta": ratio} | _rates(table, f"{points}_{ratio:g}")
+        {"control points": points, "eta_0/zeta": ratio} | success_row(table, f"{points}_{ratio:g}")
         for points in PAIR_POINTS
         for ratio in PAIR_RATIOS
     ]
-    return pd.DataFrame([*rows, {"control points": "RRT-Connect"} | _rates(table, YARDSTICK)])
-
-
-def _rates(table: pd.DataFrame, key: str) -> dict[str, Any]:
-    planner, truth = (
-        Share.of(int(table[f"{key}_{judged}"].sum()), len(table)) for judged in ("planner", "truth")
-    )
-    row = {
-        "planner %": round(100 * planner.value, 1),
-        "true %": round(100 * truth.value, 1),
-        "true low %": round(100 * truth.low, 1),
-        "true high %": round(100 * truth.high, 1),
-    }
-    if f"{key}_failure" in table:
-        counts = table[f"{key}_failure"].value_counts()
-        row |= {kind: int(counts.get(kind, 0)) for kind in ("displaced-goal", "midway-minimum")}
-    return row | {"of": len(table)}
+    return pd.DataFrame([*rows, {"control points": "RRT-Connect"} | success_row(table, YARDSTICK)])

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ....ledger import REGISTRY, Study
+from ....planning.search.variants import VARIANTS
 from ....planning.trials.campaign import campaign
 from ..document import SEED, truth_scene
-from ..reading import VARIANTS, GoalBox, Improved
+from ..reading import GoalBox, Improved
 
 RATIOS = (1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 1.0)
 

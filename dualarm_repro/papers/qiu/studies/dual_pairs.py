@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 
 from ....ledger import REGISTRY, Study
-from ....planning.checks.contact_check import contact_check
-from ....planning.search.bidirectional_compiled import plan_bidirectional_compiled
-from ....planning.search.time_map import hull_tracks, replay, time_map
 from ....planning.tasks.random_tasks import blocked_goal
 from ....planning.trials.yardstick import PACKAGE, YARDSTICK, yardstick
-from ..document import MARGIN, PRINTED, SEED, dual_scene, repelling
-from ..two_arms import Slave
+from ..document import MARGIN, PRINTED, SEED, dual_scene
+from ..reading import Slave
 
 PAIR_RATIOS = (1e-4, 1e-2, 1.0)
 PAIR_POINTS = ("elbow_wrist_flange", "elbow_wrist", "four_with_link_radii")
@@ -43,24 +40,14 @@ def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
 
 def _planned(reading: Slave, goal: np.ndarray) -> tuple[bool, bool, float]:
     """Planner's and true success of both arms, and the smallest distance between them [m]."""
-    scene, chosen = dual_scene(), reading.settings()
-    first, second = scene.arms
-    master = plan_bidirectional_compiled(first, PRINTED.start, goal[:6], repelling(), chosen)
+    master = reading.plan_to(goal[:6])
     if not master.reached:
         return False, False, np.nan
-    path, spread = _smooth(reading, master.path), round(reading.schedule_steps)
-    hulls = hull_tracks(first, path, reading.circles(), spread)
-    around = repelling(floor=True)
-    slave = plan_bidirectional_compiled(second, PRINTED.start, goal[6:], around, chosen, hulls)
-    if not slave.reached:
+    both = reading.around(master, goal[6:])
+    if not both.reached:
         return False, False, np.nan
-    both = replay(path, _smooth(reading, slave.path), time_map(slave, spread), spread)
-    check = contact_check(scene, np.hstack(both))
+    check = both.contact(reading.scene())
     return True, check.free, check.clearance["arms"]
-
-
-def _smooth(reading: Slave, path: np.ndarray) -> np.ndarray:
-    return reading.smooth(path) if len(path) >= 5 else path
 
 
 PAIRS = REGISTRY.keeps(

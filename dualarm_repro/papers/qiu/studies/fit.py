@@ -10,8 +10,9 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....planning.checks.contact_check import contact_check
+from ....planning.search.variants import Variant
 from ..document import PRINTED, SEED, truth_scene
-from ..reading import Improved, Variant
+from ..reading import Improved
 
 RATIOS = tuple(float(f"{x:.2e}") for x in np.geomspace(1e-5, 1.0, 41))
 

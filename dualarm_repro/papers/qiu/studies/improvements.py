@@ -18,8 +18,9 @@ from ....planning.checks.path_measures import MEASURES, chatter
 from ....planning.field.obstacles import obstacles_of
 from ....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from ....planning.search.search_plan import SearchPlan
+from ....planning.search.variants import Variant
 from ..document import SEED, full_step, random_task
-from ..reading import Improved, Variant
+from ..reading import Improved
 
 RATIOS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0)
 STEP_RULES = ("constant", "saturating", "plain_distance", "relative")

@@ -12,9 +12,10 @@ from ....planning.checks.contact_check import contact_check
 from ....planning.field.obstacles import obstacles_of
 from ....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from ....planning.search.failure import classify
+from ....planning.search.variants import VARIANTS
 from ....planning.trials.yardstick import PACKAGE, YARDSTICK, yardstick
 from ..document import MARGIN, SEED, random_task
-from ..reading import VARIANTS, Improved
+from ..reading import Improved
 
 SCENE_RATIOS = (1e-4, 1e-2, 1.0)
 _COUNT, _MOST_CHECKS = 300, 20_000

@@ -11,10 +11,12 @@ from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
 from .....ledger.formula import parse
 from .....ledger.printed import EXACT
+from .....planning.field.disc_field import DiscField
 from .....planning.field.joint_attraction import conic_force, conic_potential
 from .....planning.field.repulsive_force import inverse_distance_force, inverse_distance_potential
-from .....planning.search.bidirectional import repulsive_torque, surroundings_at
+from .....planning.search.bidirectional import surroundings_at
 from .....planning.search.bidirectional_settings import Threshold
+from .....planning.search.search_field import repulsive_potential_at, repulsive_torque_at
 from .....planning.search.search_problem import SearchProblem, search_problem
 from .....view.force_field import force_field_figure
 from .....view.tip_paths import TipPanel, tip_path_figure
@@ -38,27 +40,9 @@ _LOST = "the formula"
 def principle(assumed: Assumed) -> Result:
     """A point among a goal and an obstacle: both forces and their sum."""
     goal, centre, radius = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15
-    zeta, threshold, influence = PRINTED.zeta, PRINTED.threshold, PRINTED.influence
-
-    def potential(points: np.ndarray) -> np.ndarray:
-        rho = np.linalg.norm(points - centre, axis=1) - radius
-        pull = [conic_potential(p, goal, zeta, threshold, Threshold.NORM) for p in points]
-        return np.array(pull) + inverse_distance_potential(np.maximum(rho, 0.01), 4.0, influence)
-
-    def forces(point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        away = point - centre
-        rho = np.linalg.norm(away) - radius
-        push = inverse_distance_force(rho, 4.0, influence, _CONTACT) * away / np.linalg.norm(away)
-        return conic_force(point, goal, zeta, threshold, Threshold.NORM), push
-
+    made = DiscField(goal, centre, radius, PRINTED.zeta, PRINTED.threshold, 4.0, PRINTED.influence)
     points = np.array([[0.0, 0.25], [0.12, 0.05], [0.45, 0.32], [0.75, -0.2]])
-    balance = max(
-        float(
-            np.linalg.norm(sum(forces(p)) + central_differences(lambda x: potential(x[None])[0], p))
-        )
-        / float(np.linalg.norm(forces(p)[0]))
-        for p in points
-    )
+    balance = max(made.imbalance(point) for point in points)
     return Result(
         obtained={"balance": balance},
         caption=(
@@ -68,7 +52,9 @@ def principle(assumed: Assumed) -> Result:
         ),
         alt="Level lines of a potential around a disc and a goal; arrows of attraction, repulsion "
         "and their sum at four points.",
-        figure=lambda: force_field_figure(potential, forces, goal, centre, radius, points),
+        figure=lambda: force_field_figure(
+            made.potential, made.forces, goal, centre, radius, points
+        ),
     )
 
 
@@ -124,13 +110,13 @@ def resultant(assumed: Assumed) -> Result:
     worst = 0.0
     for q in _postures(made.goal):
         pull = conic_force(q, **attraction)
-        push = _torque(made, q)
+        push = repulsive_torque_at(made, q)
         given = {
             "F": pull + push,
             "F_att": pull,
             "F_rep": push,
             "U_att": partial(conic_potential, **attraction),
-            "U_rep": partial(_repulsive, made),
+            "U_rep": partial(repulsive_potential_at, made),
             "grad": partial(central_differences, x=q),
         }
         sides = [value_of(formula, k, given) for k in range(3)]
@@ -288,7 +274,10 @@ def joint_forces(assumed: Assumed) -> Result:
     for points, sources in cases:
         made = _problem(Search.nominal(control_points=points, repulsion_sources=sources))
         for q in _postures(made.goal):
-            torque, numeric = _torque(made, q), -central_differences(partial(_repulsive, made), q)
+            torque, numeric = (
+                repulsive_torque_at(made, q),
+                -central_differences(partial(repulsive_potential_at, made), q),
+            )
             if np.linalg.norm(numeric) > 1.0:
                 gap = float(np.linalg.norm(torque - numeric) / np.linalg.norm(numeric))
                 worst = max(worst, gap)
@@ -314,14 +303,3 @@ def _postures(goal: np.ndarray) -> np.ndarray:
     rng = np.random.default_rng(SEED)
     share = rng.uniform(0.0, 0.45, _SAMPLES)
     return share[:, np.newaxis] * goal + rng.normal(0.0, 0.1, (_SAMPLES, 6))
-
-
-def _repulsive(made: SearchProblem, q: np.ndarray) -> float:
-    found, repulsion = surroundings_at(made, 0, q, 0), made.settings.repulsion
-    values = inverse_distance_potential(found.distance, repulsion.gain, repulsion.influence)
-    return float((values * found.acting(repulsion.sources)).sum())
-
-
-def _torque(made: SearchProblem, q: np.ndarray) -> np.ndarray:
-    gains = np.full(len(made.points.joint), made.settings.repulsion.gain)
-    return repulsive_torque(made, surroundings_at(made, 0, q, 0), gains)

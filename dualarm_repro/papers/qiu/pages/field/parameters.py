@@ -10,12 +10,13 @@ import pandas as pd
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
 from .....ledger.formula import parse
 from .....ledger.printed import EXACT
+from .....ledger.printed_values import printed_numbers
 from .....planning.checks.recorded_steps import step_difference
 from .....planning.descent.adaptive_step import step_length
 from .....planning.field.variable_gain import gain_factor
 from .....planning.search.bidirectional_settings import GainRule, StepRule
 from .....settings import code
-from ...document import PRINTED, goal_to_surface, printed, value_of
+from ...document import PRINTED, goal_to_surface, value_of
 from ...reading import Goal, VariableGain
 
 checks = partial(REGISTRY.checks, page="qiu/field")
@@ -133,7 +134,7 @@ def first_step(assumed: Assumed) -> Result:
     unit, alpha0 = assumed["angle_unit"], PRINTED.alpha0
     straight = float(np.linalg.norm(Goal.of(assumed).posture() - PRINTED.start))
     needed = straight / (alpha0 * _SCALE[unit])
-    made = int(printed("claim_bi_counts", "forward", "backward").sum())
+    made = int(printed_numbers("qiu.claim_bi_counts", "forward", "backward").sum())
     return Result(
         obtained={
             "alpha0": alpha0,

@@ -12,6 +12,7 @@ import sympy as sp
 
 from .....arms import load_arm
 from .....arms.dh import joint_symbols
+from .....arms.link_chains import coinciding, frames_at_zero, modified_chain, offset_chain
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
 from .....view.arm_drawings import dimension_drawing, frames_figure
 from ....wording import point
@@ -73,14 +74,14 @@ def dimensions(assumed: Assumed) -> Result:
 )
 def link_frames(assumed: Assumed) -> Result:
     """Frames of the standard table at zero joints, and the flange by either convention."""
-    frames = _frames_at_zero()
+    frames = frames_at_zero(load_arm(ROBOT))
     tip = load_arm(ROBOT).fk(PRINTED.start)[:3, 3]
     difference = float(np.linalg.norm(_modified_tip(assumed["link_lengths"]) - tip))
     return Result(
         obtained={
             "flange": tip.tolist(),
             "convention_difference": difference,
-            "coinciding_origins": _coinciding(frames[1:]),
+            "coinciding_origins": coinciding(frames[1:]),
         },
         caption=(
             f"Link frames of the standard table at zero joints; the flange is at ({point(tip, 3)}) "
@@ -105,7 +106,7 @@ def table_1(assumed: Assumed) -> Result:
     """The table of the public arm, checked against a chain of plain offsets along fixed axes."""
     arm, made = load_arm(ROBOT), robot()
     q = arm.random_configurations(500, np.random.default_rng(SEED))
-    other = np.array([offset_chain(row, assumed["link_lengths"]).translation for row in q])
+    other = np.array([flange_by_offsets(row, assumed["link_lengths"]).translation for row in q])
     difference = float(np.abs(arm.fk(q)[:, :3, 3] - other).max())
     rows = [
         {
@@ -187,28 +188,7 @@ def end_effector(assumed: Assumed) -> Result:
     )
 
 
-def _frames_at_zero() -> np.ndarray:
-    """Base frame and the six frames of the table at zero joints (7, 4, 4)."""
-    zero = {symbol: 0 for symbol in joint_symbols(6)}
-    frames = [np.eye(4)]
-    for transform in load_arm(ROBOT).link_transforms():
-        frames.append(frames[-1] @ np.array(transform.subs(zero).evalf(), dtype=float))
-    return np.array(frames)
-
-
-def _coinciding(frames: np.ndarray) -> list[list[int]]:
-    """Pairs of link frames (numbered from 1) with a common origin."""
-    origins = frames[:, :3, 3]
-    count = len(origins)
-    return [
-        [i + 1, j + 1]
-        for i in range(count)
-        for j in range(i + 1, count)
-        if np.linalg.norm(origins[i] - origins[j]) < 1e-12
-    ]
-
-
-def offset_chain(q: np.ndarray, size: Mapping[str, float]) -> pin.SE3:
+def flange_by_offsets(q: np.ndarray, size: Mapping[str, float]) -> pin.SE3:
     """Flange from offsets and the axes z, y, y, x, y, x, as a robot description gives them."""
     steps = (
         ((0.0, 0.0, 0.0), "z"),
@@ -218,10 +198,7 @@ def offset_chain(q: np.ndarray, size: Mapping[str, float]) -> pin.SE3:
         ((size["d4"], 0.0, 0.0), "y"),
         ((size["d6"], 0.0, 0.0), "x"),
     )
-    pose = pin.SE3.Identity()
-    for angle, (offset, axis) in zip(q, steps, strict=True):
-        pose = pose * pin.SE3(pin.utils.rotate(axis, float(angle)), np.array(offset))
-    return pose
+    return offset_chain(steps, q)
 
 
 def _modified_tip(size: dict[str, float]) -> np.ndarray:
@@ -235,8 +212,4 @@ def _modified_tip(size: dict[str, float]) -> np.ndarray:
         (half, 0.0, 0.0, 0.0),
         (-half, 0.0, size["d6"], np.pi),
     )
-    pose = pin.SE3.Identity()
-    for alpha, a, d, theta in rows:
-        pose = pose * pin.SE3(pin.utils.rotate("x", alpha), np.array([a, 0.0, 0.0]))
-        pose = pose * pin.SE3(pin.utils.rotate("z", theta), pin.utils.rotate("z", theta)[:, 2] * d)
-    return pose.translation
+    return modified_chain(rows).translation

@@ -23,11 +23,12 @@ from .....ledger import (
 )
 from .....ledger.formula import parse
 from .....ledger.printed import read_number
+from .....ledger.printed_values import printed_numbers
 from .....planning.field.control_points import end_effector
+from .....planning.tasks.elbow_branches import BRANCHES, branch_posture, pulled_back, shoulder
 from .....planning.tasks.tip_goal import tip_posture
 from .....view.arm_drawings import stick_figure
-from .....view.scene3d import Scene3D
-from .....view.style import MASTER, SLAVE
+from .....view.arm_scenes import standing
 from ....wording import point
 from ...document import (
     ARMS,
@@ -35,15 +36,12 @@ from ...document import (
     SEED,
     goal_to_surface,
     placed,
-    printed,
     reach,
-    shoulder,
     shoulder_to_goal,
     value_of,
 )
-from ...postures import BRANCHES, branch_posture, pulled_back
 from ...reading import Goal, GoalBox, SlaveGoal
-from .arm import offset_chain
+from .arm import flange_by_offsets
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
 _INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
@@ -102,12 +100,6 @@ def both_arms(assumed: Assumed) -> Result:
     bases["slave"] = bases["master"] + np.array([assumed["base_translation"], 0.0, 0.0])
     zero, gaps = PRINTED.start, gap_by_turn()
 
-    def scene() -> Scene3D:
-        made = Scene3D("Both arms at zero joints on the printed bases.", camera=(1.6, 1.9, 1.3))
-        for (name, arm), color in zip(arms.items(), (MASTER, SLAVE), strict=True):
-            made.add_arm(name, arm.arm, zero, arm.placement, color)
-        return made
-
     return Result(
         obtained={
             "base_master": bases["master"].tolist(),
@@ -125,14 +117,16 @@ def both_arms(assumed: Assumed) -> Result:
         alt="Stick figures of two equal arms side by side, both reaching "
         "along y at the same height.",
         figure=lambda: stick_figure({n: (a.arm, zero, a.placement) for n, a in arms.items()}),
-        scene=scene,
+        scene=lambda: standing(
+            "Both arms at zero joints on the printed bases.", arms.values(), zero, (1.6, 1.9, 1.3)
+        ),
     )
 
 
 def gap_by_turn() -> dict[int, float]:
     """Distance of the master's tip at the printed joints from the printed one, for the quarter
     turns of its base [m]."""
-    wanted, q = printed("claim_start", "tcp"), PRINTED.start
+    wanted, q = printed_numbers("qiu.claim_start", "tcp"), PRINTED.start
     return {
         yaw: float(np.linalg.norm(end_effector(placed("master", yaw=yaw), q) - wanted))
         for yaw in (0, 90, 180, 270)
@@ -199,7 +193,7 @@ def start(assumed: Assumed) -> Result:
 def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
     angles, base = PRINTED.start, PRINTED.bases[name]
     turn = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(assumed["base_yaw"]))
-    tip = pin.SE3(turn, base).act(offset_chain(angles, assumed["link_lengths"]).translation)
+    tip = pin.SE3(turn, base).act(flange_by_offsets(angles, assumed["link_lengths"]).translation)
     read = [read_number(text) for text in printed]
     gaps = [abs(value - there) for value, (there, _) in zip(tip, read, strict=True)]
     beyond = [gap - half for gap, (_, half) in zip(gaps, read, strict=True)]
@@ -235,13 +229,13 @@ def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
 )
 def goal(assumed: Assumed) -> Result:
     """Distance of the printed goal, what the planner says to it, and the change made."""
-    reading, wanted, base = Goal.of(assumed), PRINTED.master_goal, PRINTED.bases["master"]
+    reading, wanted = Goal.of(assumed), PRINTED.master_goal
     q = reading.posture()
     tip = end_effector(reading.arm(), q)
     distance, moved = shoulder_to_goal(), float(np.linalg.norm(tip - wanted))
     lower, upper = np.deg2rad(np.array(assumed["joint_limits"], dtype=float)).T
     best = tip_posture(placed("master"), wanted, q, best_effort=True)
-    inside, branches = pulled_back(wanted, base, reading.goal_radius), {}
+    inside, branches = pulled_back(placed("master"), wanted, reading.goal_radius), {}
     for branch in BRANCHES:
         posture = branch_posture(placed("master"), inside, branch, reading.goal_wrist)
         branches[branch] = None if posture is None else np.rad2deg(posture).tolist()
@@ -284,7 +278,7 @@ def _refusal() -> str:
 def _changes() -> pd.DataFrame:
     """Least change of one input after which the printed goal is within reach."""
     missing = shoulder_to_goal() - reach()
-    flat = PRINTED.master_goal - shoulder(PRINTED.bases["master"])
+    flat = PRINTED.master_goal - shoulder(placed("master"))
     across = np.sqrt(reach() ** 2 - flat[1] ** 2 - flat[2] ** 2)
     height = np.sqrt(reach() ** 2 - flat[0] ** 2 - flat[1] ** 2)
     rows = [
@@ -316,7 +310,7 @@ def slave_task(assumed: Assumed) -> Result:
     tip = end_effector(placed("slave"), q)
     limits = np.deg2rad(np.array(assumed["joint_limits"], dtype=float))
     inside = [b for b, p in found.items() if ((p >= limits[:, 0]) & (p <= limits[:, 1])).all()]
-    away = float(np.linalg.norm(PRINTED.slave_goal - shoulder(PRINTED.bases["slave"])))
+    away = float(np.linalg.norm(PRINTED.slave_goal - shoulder(placed("slave"))))
     return Result(
         obtained={
             "start": begin.obtained["tcp"],
@@ -352,7 +346,7 @@ def goals_15(assumed: Assumed) -> Result:
     Near the printed goal means nearer to it than the nearer sphere is.
     """
     drawn = GoalBox.of(assumed).draw(SEED)
-    centre = printed("claim_goals15", "centre")
+    centre = printed_numbers("qiu.claim_goals15", "centre")
     nearer = float(np.linalg.norm(PRINTED.centres - centre, axis=1).min()) - PRINTED.radius
     farthest = float(np.linalg.norm(drawn.points - centre, axis=1).max(initial=0.0))
     table = pd.DataFrame(drawn.points, columns=["x_m", "y_m", "z_m"])

@@ -8,20 +8,20 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....planning.checks.contact_check import SAMPLING
 from .....planning.field.control_points import end_effector
-from .....planning.field.hull_obstacle import circles_on
-from .....scene import ConvexHull, densify, distances
-from .....view.scene3d import Scene3D
+from .....planning.search.dual_search import DualSearch
+from .....scene import Scene, densify, distances
+from .....view.arm_scenes import pair_panel, played_pair
 from .....view.search_curves import coordinate_figure, joint_figure
-from .....view.style import GREEN, MASTER, SLAVE
-from .....view.tip_paths import TipPanel, tip_path_figure
-from ...document import ARMS, FACE_VALUE, PRINTED, dual_scene, spheres
-from ...drawings import with_spheres
-from ...reading import Links
-from ...two_arms import DualPlan, both_arms, dual_readings, executed
+from .....view.tip_paths import tip_path_figure
+from ...document import ARMS, FACE_VALUE, PRINTED, spheres
+from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
-_TIMES = 5
+_PLAYED = (
+    "Both arms on their paths (reconstruction); translucent: hull of the master at its middle pose."
+)
 
 
 @checks(
@@ -35,7 +35,7 @@ _TIMES = 5
 )
 def slave_joints(assumed: Assumed) -> Result:
     """Joint angles of the slave while the hull of the master moves."""
-    plans = dual_readings(assumed)
+    plans = Slave.of(assumed).dual_readings()
     face, other = plans.values()
     return Result(
         obtained={
@@ -69,7 +69,7 @@ def slave_joints(assumed: Assumed) -> Result:
 )
 def slave_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the slave's flange while the hull of the master moves."""
-    plans, halves = dual_readings(assumed), PRINTED.slave_meeting
+    plans, halves = Slave.of(assumed).dual_readings(), PRINTED.slave_meeting
     tips = {n: end_effector(p.slave.problem.placed, p.slave_path) for n, p in plans.items()}
     face, tip = plans[FACE_VALUE].slave, tips[FACE_VALUE]
     error = max(float(np.linalg.norm(tip[k] - face.tcp[k])) for k in (0, -1))
@@ -105,87 +105,51 @@ def slave_coordinates(assumed: Assumed) -> Result:
 )
 def both_arms_together(assumed: Assumed) -> Result:
     """Distance of the arms over a common motion, and both arms played."""
-    radii, plans = Links.of(assumed).radii, dual_readings(assumed)
+    reading, radii = Slave.of(assumed), Links.of(assumed).radii
+    plans, scene = reading.dual_readings(), reading.scene(radii)
     face, other = plans.values()
+    pairs = {"arm to arm": ("master",), "slave to spheres": tuple(spheres())}
     curves = {
-        f"{'arm to arm' if pair == 'master' else 'slave to spheres'}, {name}": _distance(
-            plan, pair, radii
-        )
+        f"{pair}, {name}": _distance(scene, densify(plan.stacked(scene), SAMPLING)[0], *bodies)
         for name, plan in plans.items()
-        for pair in ("master", "spheres")
+        for pair, bodies in pairs.items()
     }
     return Result(
         obtained={
-            "apart": max(face.master.gap, face.slave.gap) - face.reading.joint_tolerance,
+            "apart": max(face.master.gap, face.slave.gap) - reading.joint_tolerance,
             "smallest": {name: float(values.min()) for name, values in curves.items()},
-            "floor": executed(face, radii=radii).clearance["floor"],
+            "floor": face.contact(scene).clearance["floor"],
         },
         caption=(
             "Smallest distance over the common motion: "
             + "; ".join(f"{name} {1e3 * values.min():.0f} mm" for name, values in curves.items())
             + ". Below zero the links overlap. A common time scale is not printed."
         ),
-        table=_motion(face, radii),
+        table=_motion(face, scene),
         alt="Both arms among the spheres at common times, with the paths of both flanges, in two "
         "panels for two readings.",
         figure=lambda: tip_path_figure(
-            [_panel(name, plan) for name, plan in plans.items()], list(spheres().values()), azim=60
+            [pair_panel(name, plan) for name, plan in plans.items()],
+            list(spheres().values()),
+            azim=60,
         ),
-        scene=lambda: _scene(other),
+        scene=lambda: played_pair(_PLAYED, other, spheres(), (0.6, 2.0, 1.4)),
     )
 
 
-def _panel(name: str, plan: DualPlan) -> TipPanel:
-    """Both arms at common times, and the paths of their flanges."""
-    paths = dict(zip(ARMS, both_arms(plan), strict=True))
-    arms = {placed.name: placed for placed in dual_scene(plan.reading.master_goal).arms}
-    times = np.linspace(0, len(paths["master"]) - 1, _TIMES).round().astype(int)
-    return TipPanel(
-        name,
-        {arm: end_effector(arms[arm], path) for arm, path in paths.items()},
-        [(arms[arm], path[k]) for arm, path in paths.items() for k in times],
-        {},
-    )
-
-
-def _motion(plan: DualPlan, radii: tuple[float, ...]) -> pd.DataFrame:
+def _motion(plan: DualSearch, scene: Scene) -> pd.DataFrame:
     """Joints of both arms on common samples and the smallest distance between them there."""
-    scene, (master, slave) = dual_scene(plan.reading.master_goal, radii), both_arms(plan)
-    found = distances(scene, scene.stack(master=master, slave=slave))
+    q = plan.stacked(scene)
     columns = {
         f"{name}_q{j}_deg": np.rad2deg(path[:, j - 1])
-        for name, path in (("master", master), ("slave", slave))
+        for name, path in zip(ARMS, plan.played(), strict=True)
         for j in range(1, 7)
     }
-    pairs = scene.pairs.between("slave", "master")
-    return pd.DataFrame(columns | {"arm_to_arm_m": found[:, pairs].min(axis=1)})
+    return pd.DataFrame(columns | {"arm_to_arm_m": _distance(scene, q, "master")})
 
 
-def _distance(plan: DualPlan, other: str, radii: tuple[float, ...]) -> np.ndarray:
-    scene, (master, slave) = dual_scene(plan.reading.master_goal, radii), both_arms(plan)
-    q, _ = densify(scene.stack(master=master, slave=slave), 0.02)
-    found = distances(scene, q)
-    names = ("master",) if other == "master" else tuple(spheres())
-    mask = np.any([scene.pairs.between("slave", name) for name in names], axis=0)
-    return found[:, mask].min(axis=1)
-
-
-def _scene(plan: DualPlan) -> Scene3D:
-    """Both arms played by the time map, with the hull of the master at its middle pose."""
-    master, slave = both_arms(plan)
-    arms = {placed.name: placed for placed in dual_scene(plan.reading.master_goal).arms}
-    made = with_spheres(
-        "Both arms on their paths (reconstruction); translucent: hull of the "
-        "master at its middle pose.",
-        camera=(0.6, 2.0, 1.4),
-    )
-    for (name, placed), path, color in zip(
-        arms.items(), (master, slave), (MASTER, SLAVE), strict=True
-    ):
-        made.add_arm(name, placed.arm, path[0], placed.placement, color)
-        made.add_path(f"{name} flange", end_effector(placed, path), color)
-    middle = plan.master_path[len(plan.master_path) // 2]
-    hull = ConvexHull(circles_on(arms["master"], plan.reading.circles(), middle[np.newaxis])[0])
-    made.add_mesh("hull", hull.vertices, hull.faces, GREEN, 0.25)
-    made.animate({"master": (arms["master"].arm, master), "slave": (arms["slave"].arm, slave)})
-    return made
+def _distance(scene: Scene, q: np.ndarray, *others: str) -> np.ndarray:
+    """Smallest distance of the slave to these bodies at configurations (N, 12) of both arms (N,)
+    [m]."""
+    mask = np.any([scene.pairs.between("slave", name) for name in others], axis=0)
+    return distances(scene, q)[:, mask].min(axis=1)

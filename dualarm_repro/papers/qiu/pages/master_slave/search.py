@@ -17,8 +17,7 @@ from .....view.diagrams import flow_chart
 from ....wording import point
 from ...document import PRINTED
 from ...ends import count_rules, counted, meeting_rules, met, outcome
-from ...reading import Links
-from ...two_arms import Slave, both_arms, dual_readings, executed
+from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
 _SHIFTS = (-6, -3, 3, 6)
@@ -78,7 +77,7 @@ def order_of_work(assumed: Assumed) -> Result:
 
 def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
     """How the slave's search came out, at face value and in the reconstruction."""
-    plans = dual_readings(assumed).values()
+    plans = Slave.of(assumed).dual_readings().values()
     return [outcome(plan.slave, PRINTED.slave_meeting) for plan in plans]
 
 
@@ -137,7 +136,7 @@ def schedule(assumed: Assumed) -> Result:
             "held_share": held / searches,
             "late_step_ratio": ratio,
             "held_searches": held,
-            "wait_samples": len(both_arms(plan)[0]) - len(share),
+            "wait_samples": len(plan.played()[0]) - len(share),
         },
         table=pd.DataFrame({"sample": range(len(share)), "share_of_master_path": share}),
         caption=(
@@ -160,13 +159,14 @@ def schedule(assumed: Assumed) -> Result:
 )
 def no_collision(assumed: Assumed) -> Result:
     """Contact of whole links while both arms execute their paths, in step and out of step."""
-    radii, plan = Links.of(assumed).radii, Slave.of(assumed).dual_plan()
-    found = executed(plan, radii=radii)
-    shifted = {k: executed(plan, shift=k, radii=radii).clearance["arms"] for k in _SHIFTS}
-    uniform = executed(plan, "uniform", radii=radii).clearance["arms"]
+    reading = Slave.of(assumed)
+    plan, scene = reading.dual_plan(), reading.scene(Links.of(assumed).radii)
+    found = plan.contact(scene)
+    shifted = {k: plan.contact(scene, shift=k).clearance["arms"] for k in _SHIFTS}
+    uniform = plan.contact(scene, "uniform").clearance["arms"]
     return Result(
         obtained={
-            "joined": plan.master.reached and plan.slave.reached,
+            "joined": plan.reached,
             "arms": found.clearance["arms"],
             "obstacles": found.clearance["obstacles"],
             "clearance": {**found.clearance, "beyond_limits": found.beyond_limits},

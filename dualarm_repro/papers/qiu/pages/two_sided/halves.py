@@ -13,23 +13,17 @@ from .....planning.checks.contact_check import ContactCheck, contact_check
 from .....planning.field.control_points import end_effector
 from .....planning.search.search_plan import SearchPlan
 from .....planning.search.splice import roughness
+from .....view.arm_scenes import played_search, search_panel
 from .....view.scene3d import Scene3D
 from .....view.search_curves import coordinate_figure, joint_figure, splice_figure
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
 from ....wording import point
 from ...document import FACE_VALUE, PRINTED, RECONSTRUCTION, spheres, truth_scene
-from ...drawings import among_spheres, played
 from ...ends import count_rules, counted, meeting_rules, met, outcome
 from ...reading import Improved, Splice
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
-
-
-def _readings(assumed: Assumed) -> dict[str, SearchPlan]:
-    """The search from both ends at face value and in the reconstruction."""
-    reading = Improved.of(assumed)
-    return {FACE_VALUE: reading.plan(), RECONSTRUCTION: reading.reconstructed().plan()}
 
 
 def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
@@ -47,7 +41,7 @@ def _summary(plan: SearchPlan) -> dict[str, Any]:
 @checks("qiu.claim_bi_counts", rules=count_rules("the two halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
-    plans = _readings(assumed)
+    plans = Improved.of(assumed).readings()
     face, other = (_summary(plan) for plan in plans.values())
     return Result(
         obtained=counted(face, other),
@@ -68,7 +62,7 @@ def _worst(summary: dict[str, Any]) -> str:
 @checks("qiu.claim_bi_meet", rules=meeting_rules("the two halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the halves end, against print."""
-    plans = _readings(assumed)
+    plans = Improved.of(assumed).readings()
     face, other = (_summary(plan) for plan in plans.values())
     made = met(face, other, PRINTED.meeting)
     return Result(
@@ -94,9 +88,9 @@ def meeting(assumed: Assumed) -> Result:
 )
 def both_halves(assumed: Assumed) -> Result:
     """Flange paths of both halves among the spheres."""
-    plans, ends = _readings(assumed), PRINTED.meeting
+    plans, ends = Improved.of(assumed).readings(), PRINTED.meeting
     panels = [
-        among_spheres(
+        search_panel(
             name,
             plan,
             {"forward": plan.half_tcp[0], "backward": plan.half_tcp[1]},
@@ -128,12 +122,9 @@ def both_halves(assumed: Assumed) -> Result:
 
 def _scene(plan: SearchPlan) -> Scene3D:
     """The joined path, played, with both halves of the flange path."""
-    made = played("Reconstruction: both halves of the master's path, forward and backward.", plan)
-    for name, tcp, color in zip(
-        ("forward", "backward"), plan.half_tcp, (GREEN, PURPLE), strict=True
-    ):
-        made.add_path(name, tcp, color)
-    return made
+    curves = {"forward": (plan.half_tcp[0], GREEN), "backward": (plan.half_tcp[1], PURPLE)}
+    title = "Reconstruction: both halves of the master's path, forward and backward."
+    return played_search(title, plan, spheres(), curves)
 
 
 @checks(
@@ -204,7 +195,7 @@ def _bend(path: np.ndarray, junction: int) -> float:
 )
 def joint_angles(assumed: Assumed) -> Result:
     """All joint angles of the joined and smoothed path."""
-    plans = _readings(assumed)
+    plans = Improved.of(assumed).readings()
     splice = Splice.of(assumed)
     paths = {name: splice.smooth(plan.path) for name, plan in plans.items()}
     degrees = np.rad2deg(paths[FACE_VALUE])
@@ -237,7 +228,7 @@ def joint_angles(assumed: Assumed) -> Result:
 )
 def tip_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the flange on the joined and smoothed path."""
-    plans, splice, halves = _readings(assumed), Splice.of(assumed), PRINTED.meeting
+    plans, splice, halves = Improved.of(assumed).readings(), Splice.of(assumed), PRINTED.meeting
     tips = {
         name: end_effector(plan.problem.placed, splice.smooth(plan.path))
         for name, plan in plans.items()

@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Residual, Result
+from .....ledger.witnesses import cell_witnesses
 from .....planning.checks.recorded_steps import step_difference
 from .....planning.search.splice import roughness, smoothed, smoothed_directly
 from ...document import PRINTED, SEED
 from ...reading import Improved, Traditional
 from ...studies.improvements import IMPROVEMENTS, STEP_RULES, nearest
-from ...witnesses import witnesses
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 _MU = (0.0, 0.1, 1.0, 10.0, 100.0)
@@ -224,7 +224,7 @@ def adaptive_efficiency(assumed: Assumed) -> Result:
             + ", ".join(f"{count} ({name})" for name, count in reached.items())
             + "."
         ),
-        witnesses=witnesses(
+        witnesses=cell_witnesses(
             "qiu.claim_steps_efficiency",
             obtained,
             both,

@@ -1,0 +1,38 @@
+"""How smooth the paths of searches are, in joint space and in task space."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from ..search.search_plan import SearchPlan
+from .path_measures import bending, until_rest
+
+
+def moving_part(plan: SearchPlan) -> np.ndarray:
+    """The path (N, nq) [rad] of a search, a failed one only as far as where it rests."""
+    if plan.reached:
+        return plan.path
+    return plan.path[: until_rest(plan.path, plan.problem.settings.step.length) + 1]
+
+
+def bending_of(
+    plan: SearchPlan, smooth: Callable[[np.ndarray], np.ndarray], spacing: Mapping[str, float]
+) -> dict[str, float]:
+    """:func:`.path_measures.bending` of the moving part after smoothing, by space.
+
+    Parameters
+    ----------
+    spacing
+        Of the samples, ``joints`` [rad] and ``tip`` [m].
+    """
+    path = smooth(moving_part(plan))
+    points = {"joints": path, "tip": plan.placed.arm.positions(path)}
+    return {space: bending(points[space], step) for space, step in spacing.items()}
+
+
+def least_singular_value(plan: SearchPlan, path: np.ndarray) -> float:
+    """Smallest singular value of the position Jacobian on a path (N, nq) of the arm [m/rad]."""
+    jacobian = plan.placed.arm.jacobian(path)[:, :3]
+    return float(np.linalg.svd(jacobian, compute_uv=False)[:, -1].min())
