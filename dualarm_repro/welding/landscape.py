@@ -45,7 +45,7 @@ def survey(placement: Placement, box: np.ndarray, spacing: float) -> Survey:
 def nearer_image(found: Optimum, fitness: Fitness, target: np.ndarray) -> Optimum:
     """The optimum or its mirror image in the plane x = 0, the one nearer to a target.
 
-    The image counts only if it is as good, to a millionth.
+    The image counts only if it is as good, to a millionth, or better.
     """
     image = found.position * _MIRROR
     nearer = np.linalg.norm(image - target) < np.linalg.norm(found.position - target)
@@ -67,7 +67,7 @@ def extreme_position(
 ) -> Optimum:
     """Feasible position that a rule calls poor, and its score.
 
-    Of mirror images that are as good, the one with x > 0.
+    Of two mirror images of one score, the one with x > 0.
 
     Parameters
     ----------
@@ -103,4 +103,5 @@ def extreme_position(
     values = np.concatenate([score(block) for block in blocks(points)])
     cells = best_cells(points, values, starts, spacing)
     found = refined(score, cells, box, 0.5 * spacing, tolerance)
-    return nearer_image(found, score, _SIDE)
+    image = nearer_image(found, score, _SIDE)
+    return image if image.fitness <= found.fitness * (1 + _SAME) else found

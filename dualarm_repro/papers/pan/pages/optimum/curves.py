@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,7 +16,6 @@ from .....welding import (
     WELDER,
     Cell,
     Jobs,
-    Measures,
     closed_form,
     flange_poses,
     joint_margin,
@@ -35,6 +33,7 @@ from ...reading import (
     solved,
     status_name,
 )
+from .problem import nothing_feasible
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 #: The position of the lowest welder is the same for every reading of (16).
@@ -117,13 +116,6 @@ def joint_curves(assumed: Assumed) -> Result:
     )
 
 
-def poor_job(assumed: Mapping[str, Any], rule: str) -> tuple[Cell, Jobs, np.ndarray, Measures]:
-    """The job at the position of the stated rule."""
-    problem = Problem.of(assumed)
-    job, centre = problem.job, poor_position(problem, rule).position
-    return job.cell(), solved(job, tuple(centre)), centre, measures_at(problem, centre)
-
-
 @memo()
 def largest_measure(arm: str) -> float:
     """Largest manipulability of the arm over 100 000 random configurations [m^3]."""
@@ -147,15 +139,17 @@ def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
         ],
     )
     def curves(assumed: Assumed) -> Result:
-        rule = assumed[f"poor_position_{letter}"]
-        cell, jobs, centre, measures = poor_job(assumed, rule)
+        problem = Problem.of(assumed)
+        centre = poor_position(problem, assumed[f"poor_position_{letter}"]).position
+        cell, jobs = problem.job.cell(), solved(problem.job, tuple(centre))
+        measures = measures_at(problem, centre)
         _, best, _, best_measures = at_optimum(assumed)
         pair = ((jobs.w[0], measures), (best.w[0], best_measures))
         here, there = (w[WELDER] if letter == "a" else m.system for w, m in pair)
         panels = dict(zip((f"position ({letter})", "optimum"), pair, strict=True))
         return Result(
             obtained={
-                "recomputed": recomputed(cell, jobs),
+                "recomputed": _recomputed(cell, jobs),
                 "mean_to_optimum": float(here.mean() / there.mean()),
                 "position": centre.tolist(),
             },
@@ -198,10 +192,7 @@ def near_zero(assumed: Assumed) -> Result:
     problem = Problem.of(assumed, _ANY_MEASURE)
     job, best = problem.job, poor_position(problem, assumed["poor_position_a"])
     if not best.fitness:
-        return Result(
-            obtained={"largest_share": None, "position": None},
-            caption="No position of the region is feasible, so there is no poor one either.",
-        )
+        return nothing_feasible("largest_share", "position")
     jobs = solved(job, tuple(best.position))
     share = float(jobs.w[0, WELDER].max() / largest_measure(job.arm))
     return Result(
@@ -231,10 +222,7 @@ def unsteady(assumed: Assumed) -> Result:
     problem = Problem.of(assumed)
     poor = poor_position(problem, assumed["poor_position_b"])
     if not poor.fitness:
-        return Result(
-            obtained={"swing": None, "position": None},
-            caption="No position of the region is feasible, so there is no unsteady one either.",
-        )
+        return nothing_feasible("swing", "position")
     system = measures_at(problem, poor.position).system
     swing = float(np.ptp(system) / system.max())
     return Result(
@@ -264,7 +252,7 @@ def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
     return worst
 
 
-def recomputed(cell: Cell, jobs: Jobs) -> float:
+def _recomputed(cell: Cell, jobs: Jobs) -> float:
     """Largest difference of the manipulabilities along the seam to those by the Jacobian."""
     return max(
         float(abs(np.abs(np.linalg.det(arm.jacobian(q))) - w).max())

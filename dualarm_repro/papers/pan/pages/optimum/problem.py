@@ -22,10 +22,10 @@ from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, s
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 _CONSTRAINTS = {
-    "joint angles within limits": (Status.JOINT_LIMITS,),
-    "away from singularities": (Status.SINGULAR,),
-    "no collision": (Status.COLLISION,),
-    "inside the common workspace": (Status.OUT_OF_REACH,),
+    "joint angles within limits": Status.JOINT_LIMITS,
+    "away from singularities": Status.SINGULAR,
+    "no collision": Status.COLLISION,
+    "inside the common workspace": Status.OUT_OF_REACH,
 }
 _SAME = 1e-12
 _TESTED = 24  # positions of each status
@@ -108,10 +108,7 @@ def constraints(assumed: Assumed) -> Result:
         jobs = Placement(cell.unlimited(), task.measure.reading()).jobs([best.position])
     reached = bool(np.isfinite(jobs.q).all())
     status = surveyed(task).status
-    excluded = {
-        name: float(np.isin(status, [int(s) for s in causes]).mean())
-        for name, causes in _CONSTRAINTS.items()
-    }
+    excluded = {name: float((status == cause).mean()) for name, cause in _CONSTRAINTS.items()}
     told = ", ".join(f"{name} {share:.1%}" for name, share in excluded.items())
     obtained = {"count": len(set(Status)) - 1, "reached": reached, "excluded": excluded}
     if not reached:
