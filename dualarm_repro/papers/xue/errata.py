@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arms import load_arm
+from ...arms.exact_chain import same_function
 from ...ledger import REGISTRY, Proof, evaluate
 from ...planning.field.control_points import end_effector
 from ...planning.trials.stuck import STATIONARY
@@ -20,20 +21,17 @@ from .document import (
     table_counts,
     text_counts,
 )
-from .motions import largest_radius, master_undisturbed, replay_of, slave_plan, smallest_cores
-from .outcomes import TRIALS, VARIANTS, run_variants, starts
-from .pages.kinematics.chain import symbolic_poses
-from .pages.kinematics.printed_chain import (
-    LINKS,
-    SHARED,
-    equal,
-    link_matrix,
-    printed_lengths,
-    printed_parameters,
-    substituted,
-    table_parameters,
-    table_pose,
+from .motions import (
+    cores_of,
+    largest_radius,
+    master_undisturbed,
+    replay_of,
+    slave_plan,
+    smallest_cores,
 )
+from .outcomes import TRIALS, VARIANTS, run_variants, starts
+from .pages.kinematics import printed_chain as chain
+from .pages.kinematics.chain import symbolic_poses
 from .pages.potentials.improved import rest_slope, term_scaling
 from .pages.potentials.traditional import attractive_force_forms
 from .pages.truth import RADII
@@ -44,11 +42,19 @@ from .stored import ablation_shares, clear_share, minima_shares, virtual_point_c
 @REGISTRY.proves("xue.eq01_angle")
 def eq01_angle() -> Proof:
     """Substituting the parameters into (1) as printed and corrected."""
-    literal = [k + 1 for k in LINKS if equal(substituted(k, corrected=False), link_matrix(k))]
-    corrected = [k + 1 for k in LINKS if equal(substituted(k, corrected=True), link_matrix(k))]
+    literal = [
+        k + 1
+        for k in chain.LINKS
+        if same_function(chain.substituted(k, corrected=False), chain.link_matrix(k))
+    ]
+    corrected = [
+        k + 1
+        for k in chain.LINKS
+        if same_function(chain.substituted(k, corrected=True), chain.link_matrix(k))
+    ]
     return Proof(
         "only with the twist angle does (1) reproduce every matrix (2)-(7)",
-        len(corrected) == len(LINKS) > len(literal),
+        len(corrected) == len(chain.LINKS) > len(literal),
         {"matrices_as_printed": literal, "matrices_with_alpha": corrected},
     )
 
@@ -56,8 +62,8 @@ def eq01_angle() -> Proof:
 @REGISTRY.proves("xue.table1_shift")
 def table1_shift() -> Proof:
     """Column a of the table against the matrices, and what the two readings differ by."""
-    column = table_parameters()["a"]
-    matrices = printed_parameters()["a"]
+    column = chain.table_parameters()["a"]
+    matrices = chain.printed_parameters()["a"]
     ends = {
         pose: _difference(q) for pose, q in (("start", master_start()), ("goal", master_goal()))
     }
@@ -79,13 +85,17 @@ def table1_shift() -> Proof:
 @REGISTRY.proves("xue.table1_unit")
 def table1_unit() -> Proof:
     """Lengths read as metres are those of the published robot; as millimetres nothing is."""
-    printed, published = printed_lengths(), lengths("published")
-    metres = [name for name in SHARED if np.isclose(printed[name], published[name], atol=1e-12)]
-    millimetres = [name for name in SHARED if np.isclose(1e-3 * printed[name], published[name])]
+    printed, published = chain.printed_lengths(), lengths("published")
+    metres = [
+        name for name in chain.SHARED if np.isclose(printed[name], published[name], atol=1e-12)
+    ]
+    millimetres = [
+        name for name in chain.SHARED if np.isclose(1e-3 * printed[name], published[name])
+    ]
     return Proof(
         "read as metres, a1, a3, d4 and d6 are those of the published robot; read as millimetres, "
         "as headed, none is, and the arm would reach a few millimetres",
-        metres == list(SHARED) and not millimetres,
+        metres == list(chain.SHARED) and not millimetres,
         {"reach_if_millimetres_in_mm": reach("matrices"), "equal_in_metres": metres},
     )
 
@@ -93,7 +103,7 @@ def table1_unit() -> Proof:
 @REGISTRY.proves("xue.upper_arm")
 def upper_arm() -> Proof:
     """The one link length that is not that of the robot named."""
-    printed, published = printed_lengths()["a2"], lengths("published")["a2"]
+    printed, published = chain.printed_lengths()["a2"], lengths("published")["a2"]
     return Proof(
         "the printed upper arm is shorter than the published one",
         published > printed,
@@ -114,7 +124,7 @@ def base_height() -> Proof:
     return Proof(
         "the matrices have no base height, and with the published one the start pose would put the "
         "flange of a standing robot below the floor",
-        printed_lengths()["d1"] == 0.0 < height and z + height < 0,
+        chain.printed_lengths()["d1"] == 0.0 < height and z + height < 0,
         {"published_height": height, "flange_above_floor_at_start": z + height},
     )
 
@@ -136,7 +146,7 @@ def start_outside_limits() -> Proof:
 
 def _difference(q: np.ndarray) -> float:
     matrices = symbolic_poses(q[np.newaxis])[0]
-    return float(np.linalg.norm(matrices[:3, 3] - table_pose(q)[:3, 3]))
+    return float(np.linalg.norm(matrices[:3, 3] - chain.table_pose(q)[:3, 3]))
 
 
 @REGISTRY.proves("xue.force_modulus")
@@ -263,7 +273,7 @@ def deterministic_trials() -> Proof:
 def tool_only() -> Proof:
     """Arrangements in which the end effectors are clear and links are not."""
     case = nominal()
-    cores = replay_of(case, slave_plan(case)).cores()
+    cores = cores_of(replay_of(case, slave_plan(case)), case.layout)
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
         "there are arrangements in which both end effectors do what the figures show while links "

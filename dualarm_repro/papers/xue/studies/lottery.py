@@ -14,10 +14,10 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
+from ....planning.trials.runs import attempt
 from ..document import Layout, assumption, slave_end, slave_start
 from ..motions import (
-    attempt,
-    flange_to_window,
+    cores_of,
     master_plan,
     master_undisturbed,
     points_to_window,
@@ -83,7 +83,7 @@ def fig_9_holds(case: Case, meeting: float) -> bool:
     if layout.base_distance < RANGES["smallest_base_distance"]:
         return False
     slave = slave_undisturbed(layout, case.planner)
-    if slave is None or not slave.reached or flange_to_window(slave, layout).min() > 0.0:
+    if slave is None or not slave.reached or points_to_window(slave, layout).min() > 0.0:
         return False
     if points_to_window(slave, layout, case.planner.control_points)[[0, -1]].min() <= 0.0:
         return False
@@ -132,7 +132,7 @@ def motion_row(case: Case) -> dict[str, Any]:
     if slave is None:
         return row
     replay = replay_of(case, slave)
-    cores = replay.cores()
+    cores = cores_of(replay, layout)
     to_bars = cores.between("slave", "window")
     settings = VARIANTS["traditional"].settings(case)
     traditional = attempt(slave.placed, slave.placed.start, slave_obstacles(case), settings)
@@ -142,7 +142,7 @@ def motion_row(case: Case) -> dict[str, Any]:
         "traditional_reached": traditional is not None and traditional.reached,
         "traditional_length": np.nan if traditional is None else traditional.length,
         "slave_points": slave.clearance.min(),
-        "slave_flange_window": replay.to_window().min(),
+        "slave_flange_window": replay.to_obstacles().min(),
         "flanges_apart": replay.apart().min(),
         **{f"cores_{name}": value for name, value in smallest_cores(cores).items()},
         "cores_start": to_bars[0],

@@ -16,16 +16,17 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
+from ....planning.trials.encounter import inside_opening
+from ....scene import facing
 from ..document import METHODS_OF_TABLE_2, Layout, assumption, gains, text_counts
 from ..motions import (
-    flange_to_window,
+    cores_of,
     master_undisturbed,
     points_to_window,
     replay_of,
     slave_plan,
     slave_undisturbed,
     smallest_cores,
-    through_window,
 )
 from ..outcomes import TRIALS, run_variants, starts
 from ..reading import KEPT, Case, nominal
@@ -76,7 +77,7 @@ def margins(case: Case) -> dict[str, float]:
     undisturbed = master_undisturbed(layout, planner)
     nearest = points_to_window(undisturbed, layout, planner.control_points).min()
     found = {
-        "enters_bar": -flange_to_window(slave, layout).min() - DEMANDS["bar_entered_by"],
+        "enters_bar": -points_to_window(slave, layout).min() - DEMANDS["bar_entered_by"],
         "ends_out_of_range": ends.min() - gains()["d_0"],
         "avoidance_needed": DEMANDS["master_without"] - nearest,
     }
@@ -87,10 +88,12 @@ def margins(case: Case) -> dict[str, float]:
     plan = slave_plan(case)
     if plan is None or not plan.reached:
         return found | {"fig_11": -3.0}
-    cores = smallest_cores(replay_of(case, plan).cores())
+    cores = smallest_cores(cores_of(replay_of(case, plan), layout))
     radius = DEMANDS["radius"]
+    facing_it = facing(layout.normal)
+    opening = inside_opening(plan.tcp, layout.window_centre, facing_it, layout.opening)
     return found | {
-        "through": max(through_window(plan, layout), -1.0),
+        "through": max(opening, -1.0),
         "slave_clear": cores["slave_window"] - radius,
         "master_clear": cores["master_window"] - radius,
         "arms_clear": 0.5 * cores["arms"] - radius,
