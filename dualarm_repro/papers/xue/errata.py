@@ -9,18 +9,7 @@ from ...arms.exact_chain import same_function
 from ...ledger import REGISTRY, Proof, evaluate
 from ...planning.field.control_points import end_effector
 from ...planning.trials.stuck import STATIONARY
-from .document import (
-    gains,
-    lengths,
-    master_goal,
-    master_start,
-    placed_master,
-    reach,
-    slave_end,
-    slave_start,
-    table_counts,
-    text_counts,
-)
+from . import document
 from .motions import (
     cores_of,
     largest_radius,
@@ -65,7 +54,8 @@ def table1_shift() -> Proof:
     column = chain.table_parameters()["a"]
     matrices = chain.printed_parameters()["a"]
     ends = {
-        pose: _difference(q) for pose, q in (("start", master_start()), ("goal", master_goal()))
+        pose: _difference(q)
+        for pose, q in (("start", document.master_start()), ("goal", document.master_goal()))
     }
     return Proof(
         "the printed column equals that of the matrices moved up one row; the readings agree at "
@@ -76,8 +66,8 @@ def table1_shift() -> Proof:
         {
             "flange_difference_start": ends["start"],
             "flange_difference_goal": ends["goal"],
-            "reach_matrices": reach("matrices"),
-            "reach_table": reach("table"),
+            "reach_matrices": document.reach("matrices"),
+            "reach_table": document.reach("table"),
         },
     )
 
@@ -85,7 +75,7 @@ def table1_shift() -> Proof:
 @REGISTRY.proves("xue.table1_unit")
 def table1_unit() -> Proof:
     """Lengths read as metres are those of the published robot; as millimetres nothing is."""
-    printed, published = chain.printed_lengths(), lengths("published")
+    printed, published = chain.printed_lengths(), document.lengths("published")
     metres = [
         name for name in chain.SHARED if np.isclose(printed[name], published[name], atol=1e-12)
     ]
@@ -96,22 +86,22 @@ def table1_unit() -> Proof:
         "read as metres, a1, a3, d4 and d6 are those of the published robot; read as millimetres, "
         "as headed, none is, and the arm would reach a few millimetres",
         metres == list(chain.SHARED) and not millimetres,
-        {"reach_if_millimetres_in_mm": reach("matrices"), "equal_in_metres": metres},
+        {"reach_if_millimetres_in_mm": document.reach("matrices"), "equal_in_metres": metres},
     )
 
 
 @REGISTRY.proves("xue.upper_arm")
 def upper_arm() -> Proof:
     """The one link length that is not that of the robot named."""
-    printed, published = chain.printed_lengths()["a2"], lengths("published")["a2"]
+    printed, published = chain.printed_lengths()["a2"], document.lengths("published")["a2"]
     return Proof(
         "the printed upper arm is shorter than the published one",
         published > printed,
         {
             "printed": printed,
             "published": published,
-            "reach_matrices": reach("matrices"),
-            "reach_published_from_floor": reach("published"),
+            "reach_matrices": document.reach("matrices"),
+            "reach_published_from_floor": document.reach("published"),
         },
     )
 
@@ -119,8 +109,8 @@ def upper_arm() -> Proof:
 @REGISTRY.proves("xue.base_height")
 def base_height() -> Proof:
     """Without the published base height the start lies below the floor."""
-    height = lengths("published")["d1"]
-    z = float(load_arm("es165d").fk(master_start())[2, 3])
+    height = document.lengths("published")["d1"]
+    z = float(load_arm("es165d").fk(document.master_start())[2, 3])
     return Proof(
         "the matrices have no base height, and with the published one the start pose would put the "
         "flange of a standing robot below the floor",
@@ -133,12 +123,12 @@ def base_height() -> Proof:
 def start_outside_limits() -> Proof:
     """The printed start against the ranges of the real robot, mapped to the document's zero."""
     arm = load_arm("es165d")
-    excess = np.rad2deg(master_start() - arm.upper)
+    excess = np.rad2deg(document.master_start() - arm.upper)
     return Proof(
         "axis L is beyond its range at the printed start and within it at the printed goal",
-        bool(excess[1] > 0 and master_goal()[1] < arm.upper[1]),
+        bool(excess[1] > 0 and document.master_goal()[1] < arm.upper[1]),
         {
-            "axis_L_at_start_deg": float(90 + np.rad2deg(master_start()[1])),
+            "axis_L_at_start_deg": float(90 + np.rad2deg(document.master_start()[1])),
             "beyond_range_deg": float(excess[1]),
         },
     )
@@ -202,8 +192,8 @@ def virtual_term_absent() -> Proof:
     """A term of the form (9) that always acts keeps the arm off its goal."""
     case = nominal()
     layout = case.layout
-    share = gains()["k_w"] / (gains()["k_w"] + gains()["k_a"])
-    offset = share * float(np.linalg.norm(slave_end() - layout.window_centre))
+    share = document.gains()["k_w"] / (document.gains()["k_w"] + document.gains()["k_a"])
+    offset = share * float(np.linalg.norm(document.slave_end() - layout.window_centre))
     return Proof(
         "with the term always on, the end effector would rest on the line from goal to virtual "
         "point, so that a rule for switching it off is needed",
@@ -243,7 +233,7 @@ def stop_at_zero() -> Proof:
 @REGISTRY.proves("xue.table2_exchange")
 def table2_exchange() -> Proof:
     """The trap column as printed against the text before the table."""
-    table, text = table_counts(), text_counts()
+    table, text = document.table_counts(), document.text_counts()
     exchanged = dict(zip(table, reversed(table.values()), strict=True))
     return Proof(
         "the trap column of the table contradicts the text, and agrees with it once its two "
@@ -288,9 +278,9 @@ def layout_conflict() -> Proof:
     """Synchronous distance of the master's undisturbed track and the straight slave line."""
     case = nominal()
     master = master_undisturbed(case.layout, case.planner)
-    track = end_effector(placed_master(case.layout), master.path) - case.layout.master_base
+    track = end_effector(document.placed_master(case.layout), master.path) - case.layout.master_base
     share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
-    line = slave_start() + share * (slave_end() - slave_start())
+    line = document.slave_start() + share * (document.slave_end() - document.slave_start())
     sideways = [
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)

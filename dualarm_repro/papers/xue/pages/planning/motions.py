@@ -11,14 +11,7 @@ import numpy as np
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....planning.plan import Plan
 from .....planning.trials.replay import Replay
-from .....view.replays import (
-    TracksView,
-    add_contacts,
-    add_plan,
-    add_replay,
-    contacts_of,
-    replay_figure,
-)
+from .....view import replays
 from .....view.style import MASTER
 from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
 from ...document import Layout, gains
@@ -86,7 +79,7 @@ def master_past_window(assumed: Assumed) -> Result:
             "away from the dashed track it would take without repulsion."
         ),
         figure=lambda: _master_figure(layout, planner, plan),
-        scene=lambda: add_plan(
+        scene=lambda: replays.add_plan(
             stage("The master moves past the window; its track is blue.", layout), plan
         ),
     )
@@ -124,7 +117,7 @@ def slave_collides(assumed: Assumed) -> Result:
     replay, found = _colliding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    layout, (deepest, nearest) = Layout.of(assumed), contacts_of(replay)
+    layout, (deepest, nearest) = Layout.of(assumed), replays.contacts_of(replay)
     tcp = replay.plan.tcp
     contacts = {"hits the window": tcp[deepest], "meets the master": tcp[nearest]}
     title = "Attracted only, the slave runs into window and master; contacts are red."
@@ -146,7 +139,9 @@ def slave_collides(assumed: Assumed) -> Result:
             "the window and crosses the master's dashed track, with circles at both places."
         ),
         figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **_VIEW),
-        scene=lambda: add_contacts(add_replay(stage(title, layout), replay), replay),
+        scene=lambda: replays.add_contacts(
+            replays.add_replay(stage(title, layout), replay), replay
+        ),
     )
 
 
@@ -188,11 +183,13 @@ def avoiding_in_space(assumed: Assumed) -> Result:
         return result
     replay, _ = _avoiding(assumed)
     title = "The slave passes the window while the master moves; nothing is touched."
-    return replace(result, scene=lambda: add_replay(stage(title, Layout.of(assumed)), replay))
+    return replace(
+        result, scene=lambda: replays.add_replay(stage(title, Layout.of(assumed)), replay)
+    )
 
 
 def _avoiding_tracks(
-    assumed: Assumed, begin: str, alt: str, view: TracksView, **how: Any
+    assumed: Assumed, begin: str, alt: str, view: replays.TracksView, **how: Any
 ) -> Result:
     replay, found = _avoiding(assumed)
     if replay is None:
@@ -311,12 +308,12 @@ def _arrival(found: dict[str, Any]) -> str:
 
 
 def _tracks_figure(
-    view: TracksView, layout: Layout, replay: Replay, *further: Any, **how: Any
+    view: replays.TracksView, layout: Layout, replay: Replay, *further: Any, **how: Any
 ) -> Any:
     """Tracks of both end effectors around the window, with Start, End and the virtual point."""
     start, end = layout.slave_points()
     marks = {"Start": start, "End": end, "virtual point": layout.window_centre}
-    return replay_figure(view, replay, layout.window(), marks, *further, **how)
+    return replays.replay_figure(view, replay, layout.window(), marks, *further, **how)
 
 
 def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:
