@@ -58,8 +58,9 @@ bench: $(VENV)/.bench  ## ratios against peers, measured in one run
 serve:  ## open the built book
 	$(PYTHON) -m webbrowser "file://$(CURDIR)/_build/html/index.html"
 
-lint: $(VENV)/.installed  ## static checks
+lint: $(VENV)/.installed  ## static checks: style and types
 	$(BIN)/ruff check .
+	$(BIN)/mypy
 
 lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
 	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock

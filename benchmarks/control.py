@@ -12,7 +12,7 @@ from timing import OURS, Row, timed
 
 from dualarm_repro.control.controller import VelocityController
 from dualarm_repro.control.frozen import FrozenScenario
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.papers.patent.document import frozen
 
@@ -23,7 +23,7 @@ PINK_PAIRS = 8  # nearest pairs watched by the peer's barrier, fewer than the 14
 
 def measure() -> Iterator[Row]:
     """Rows of this suite; peers that are not installed are left out."""
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     motion = simulate(scenario.system, scenario.circles, scenario.q0, settings)
     busy = np.flatnonzero(motion.rows > 0)
     picked = busy[:: max(1, len(busy) // LOOP)][:LOOP]
@@ -63,7 +63,7 @@ def _daqp(controller: VelocityController) -> Callable:
     return step
 
 
-def _pink(scenario: FrozenScenario, settings: Settings) -> Callable:
+def _pink(scenario: FrozenScenario, settings: ControllerSettings) -> Callable:
     """Both arms in one model with their capsules; the same task, limits and damper."""
     import pink
     from pink.barriers import SelfCollisionBarrier

@@ -44,7 +44,10 @@ def opened(path: Path) -> Path:
     return path
 
 
-class _Loader(yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader):
+_Fastest: Any = yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader
+
+
+class _Loader(_Fastest):
     """Safe loader that refuses a key given twice, which YAML would let the last one win."""
 
 
@@ -57,7 +60,8 @@ def _mapping(loader: _Loader, node: yaml.MappingNode, deep: bool = False) -> dic
                 None, None, f"key {key!r} is given twice", key_node.start_mark
             )
         seen.add(key)
-    return yaml.SafeLoader.construct_mapping(loader, node, deep=True)
+    found: dict[Any, Any] = yaml.SafeLoader.construct_mapping(loader, node, deep=True)
+    return found
 
 
 _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)

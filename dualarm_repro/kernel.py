@@ -1,7 +1,8 @@
 """Compiled functions, whose machine code is kept under what it depends on.
 
 The cache of numba knows the file of a function only: after an edit of a function that it calls, old
-machine code would go on running. Here the key is the import closure of the function's module.
+machine code would go on running. Here the key is the import closure of the function's module, and
+the field names of the named tuples that it is given, whose classes may be anywhere.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import Any
 
 import llvmlite
 import numba
-from numba import njit
+from numba import njit, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
 from .cache_folder import cache_folder
@@ -74,10 +75,23 @@ class _Implementation(CompileResultCacheImpl):
 class _Cache(FunctionCache):
     _impl_class = _Implementation
 
+    def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
+        _, *rest = super()._index_key(sig, codegen)
+        return tuple(map(_layout, getattr(sig, "args", sig))), *rest
+
+
+def _layout(kind: Any) -> Any:
+    """A type, but of a named tuple its name and fields: the class may change between two runs."""
+    if not isinstance(kind, types.BaseTuple):
+        return kind
+    cls = getattr(kind, "instance_class", tuple)
+    named = (cls.__module__, cls.__qualname__, getattr(cls, "_fields", ()))
+    return *named, *map(_layout, getattr(kind, "types", ()))
+
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
-    compiled = njit(error_model="numpy")(function)
+    compiled: Any = njit(error_model="numpy")(function)
     try:
         compiled._cache = _Cache(function)
     except RuntimeError:  # no folder to keep machine code in

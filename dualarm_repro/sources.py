@@ -217,6 +217,6 @@ def _code(raw: bytes, tree: ast.AST) -> str:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and body:
             first = body[0]
             if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
-                for row in range(first.lineno, first.end_lineno + 1):
+                for row in range(first.lineno, (first.end_lineno or first.lineno) + 1):
                     lines[row - 1] = ""
     return "\n".join(kept for line in lines if (kept := line.rstrip()))

@@ -11,7 +11,8 @@ from threading import RLock
 from typing import Any, ParamSpec, TypeVar
 from weakref import WeakSet
 
-P, T = ParamSpec("P"), TypeVar("T")
+P = ParamSpec("P")
+T = TypeVar("T")
 _OPEN: ContextVar[tuple[set[str], ...]] = ContextVar("open recordings", default=())
 
 
@@ -121,7 +122,8 @@ def memo(maxsize: int | None = None) -> Callable[[Callable[P, T]], Callable[P, T
                 kept.keep(key, value, frozenset(inputs))
                 return value
             note(*found[1])
-            return found[0]
+            again: T = found[0]
+            return again
 
         answer.cache_clear = kept.forget  # type: ignore[attr-defined]
         return answer

@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.control import ArmSystem, Settings, VelocityController
+from dualarm_repro.control import ArmSystem, ControllerSettings, VelocityController
 from dualarm_repro.scene import PlacedArm, clearance
 
 arm = load_arm("xarm7")
@@ -17,7 +17,7 @@ speed = np.array([[0.0, -0.14, 0.0], [0.0, 0.14, 0.0]])  # of each tip [m/s]
 dt, ticks = 2e-3, 1000
 
 for avoid in (False, True):
-    settings = Settings(outer=0.10, inner=0.03, avoid=avoid)
+    settings = ControllerSettings(outer=0.10, inner=0.03, avoid=avoid)
     controller = VelocityController(system, settings, slack=True)
     q, nearest = start, np.inf
     for tick in range(ticks):

@@ -13,7 +13,16 @@ PACKAGE = Path(__file__).parents[1] / "dualarm_repro"
 FILES = sorted(PACKAGE.rglob("*.py"))
 #: Floors from the ground up. An import goes down, or stays within its own room.
 FLOORS = (
-    ("errors", "tracking", "cache_folder", "sources", "datafiles", "kernel", "differences"),
+    (
+        "errors",
+        "tracking",
+        "cache_folder",
+        "sources",
+        "datafiles",
+        "settings",
+        "kernel",
+        "differences",
+    ),
     ("ledger",),
     ("arms",),
     ("scene",),
@@ -173,6 +182,26 @@ def test_the_documents_are_the_smaller_part_and_files_are_short():
     assert papers <= 0.36 * sum(lines.values())
     assert max(lines.values()) <= 400
     assert median(lines.values()) <= 110
+
+
+def _unannotated(function: ast.FunctionDef) -> list[str]:
+    """Arguments without a type, and ``return``; none of a kernel, whose types numba infers."""
+    if any(isinstance(name, ast.Name) and name.id == "kernel" for name in function.decorator_list):
+        return []
+    given = function.args
+    named = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+    missing = [one.arg for one in named if one is not None and one.annotation is None]
+    missing += [] if function.returns else ["return"]
+    return [name for name in missing if name not in ("self", "cls")]
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in FILES if _room(p) != "papers"], ids=lambda p: str(p.relative_to(PACKAGE))
+)
+def test_functions_are_annotated_unless_they_are_kernels(path):
+    for node in ast.walk(ast.parse(_code(path))):
+        if isinstance(node, ast.FunctionDef):
+            assert not _unannotated(node), f"{node.name}, line {node.lineno}"
 
 
 def test_book_touches_only_the_upper_rooms():

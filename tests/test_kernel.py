@@ -1,14 +1,18 @@
 """Compiled code follows an edit of a function that it calls, whatever the time stamps say."""
 
 import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
+
+import dualarm_repro
 
 SCRIPT = """
 import sys
 sys.path.insert(0, {folder!r})
 from dualarm_repro.caller import doubled
-print(doubled(2.0))
+print(doubled({argument}))
 """
 PACKAGE = {
     "__init__.py": "",
@@ -18,28 +22,28 @@ PACKAGE = {
 }
 
 
-def _run(folder, cache):
+def _run(folder, cache, argument="2.0"):
     environment = {**os.environ, "DUALARM_CACHE": str(cache)}
     environment.pop("NUMBA_CACHE_DIR", None)
-    code = SCRIPT.format(folder=str(folder))
+    code = SCRIPT.format(folder=str(folder), argument=argument)
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True,
                           text=True, check=True)  # fmt: skip
     return float(done.stdout)
 
 
-def test_an_edit_of_a_called_kernel_is_seen(tmp_path):
-    import shutil
-    from pathlib import Path
-
-    import dualarm_repro
-
+def _package(tmp_path, files):
+    """A package with our way of compiling, and these files."""
     package = tmp_path / "src" / "dualarm_repro"
     package.mkdir(parents=True)
     for name in ("kernel.py", "sources.py", "cache_folder.py"):
         shutil.copy(Path(dualarm_repro.__file__).parent / name, package / name)
-    for name, text in PACKAGE.items():
+    for name, text in files.items():
         (package / name).write_text(text)
-    cache = tmp_path / "cache"
+    return package
+
+
+def test_an_edit_of_a_called_kernel_is_seen(tmp_path):
+    package, cache = _package(tmp_path, PACKAGE), tmp_path / "cache"
     assert _run(package.parent, cache) == 4.0
     assert list(cache.rglob("*.nbc")), "machine code is kept"
     called = package / "called.py"
@@ -48,3 +52,23 @@ def test_an_edit_of_a_called_kernel_is_seen(tmp_path):
     os.utime(called, ns=(stat.st_atime_ns, stat.st_mtime_ns))
     assert _run(package.parent, cache) == 6.0
     assert _run(package.parent, "off") == 6.0
+
+
+PAIR = """from typing import NamedTuple
+
+
+class {name}(NamedTuple):
+    {first}: float
+    {second}: float
+"""
+
+
+def test_the_fields_of_a_named_tuple_count_though_no_kernel_imports_it(tmp_path):
+    caller = (
+        "from .kernel import kernel\n\n\n@kernel\ndef doubled(pair):\n    return 2.0 * pair.a\n"
+    )
+    package, cache = _package(tmp_path, {"__init__.py": "", "caller.py": caller}), tmp_path / "c"
+    for name, first, second in (("Pair", "a", "b"), ("Pair", "b", "a"), ("Couple", "b", "a")):
+        (package / "pairs.py").write_text(PAIR.format(name=name, first=first, second=second))
+        argument = f"__import__('dualarm_repro.pairs').pairs.{name}(a=1.0, b=5.0)"
+        assert _run(package.parent, cache, argument) == 2.0

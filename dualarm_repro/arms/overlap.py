@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 import pinocchio as pin
@@ -14,7 +16,7 @@ from .occupancy import SAMPLES, Occupancy, occupancy
 from .workspace import sample_workspace
 
 CONFIDENCE = 0.95
-Placement = pin.SE3 | tuple[np.ndarray, np.ndarray]
+Placement: TypeAlias = pin.SE3 | tuple[np.ndarray, np.ndarray]
 _Placed = tuple[Arm, np.ndarray, np.ndarray]
 
 
@@ -82,24 +84,23 @@ def overlap(
     if points < 1:
         raise InputError("overlap", "points", points, "a positive number")
     arms = [(arm, *_rigid(placement)) for arm, placement in (first, second)]
-    if maps is None:
-        maps = tuple(
-            occupancy(arm, cell, np.random.default_rng((seed, 0)), samples) for arm, _, _ in arms
-        )
+    reached = maps or [
+        occupancy(arm, cell, np.random.default_rng((seed, 0)), samples) for arm, _, _ in arms
+    ]
     clouds = [
         sample_workspace(arm, points, np.random.default_rng((seed, 1))) @ R.T + t
         for arm, R, t in arms
     ]
-    volume = _common_volume(arms, maps, points, np.random.default_rng((seed, 2)))
+    volume = _common_volume(arms, reached, points, np.random.default_rng((seed, 2)))
     shares = [
-        _proportion(np.count_nonzero(_inside(clouds[k], maps[1 - k], arms[1 - k])), points)
+        _proportion(int(_inside(clouds[k], reached[1 - k], arms[1 - k]).sum()), points)
         for k in (0, 1)
     ]
     return Overlap(volume, *shares)
 
 
 def _common_volume(
-    arms: list[_Placed], maps: tuple[Occupancy, Occupancy], points: int, rng: np.random.Generator
+    arms: list[_Placed], maps: Sequence[Occupancy], points: int, rng: np.random.Generator
 ) -> Estimate:
     boxes = [m.corners() @ R.T + t for m, (_, R, t) in zip(maps, arms, strict=True)]
     lower = np.max([box.min(axis=0) for box in boxes], axis=0)
@@ -108,7 +109,7 @@ def _common_volume(
         return Estimate(0.0, 0.0, 0.0)
     trial = lower + (upper - lower) * rng.random((points, 3))
     both = _inside(trial, maps[0], arms[0]) & _inside(trial, maps[1], arms[1])
-    return _proportion(np.count_nonzero(both), points, float(np.prod(upper - lower)))
+    return _proportion(int(both.sum()), points, float(np.prod(upper - lower)))
 
 
 def _inside(points: np.ndarray, reached: Occupancy, placed: _Placed) -> np.ndarray:

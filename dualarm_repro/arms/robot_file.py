@@ -9,7 +9,7 @@ computation, ``assumed``, or ``stand-in`` for data of a similar robot.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import (
     BeforeValidator,
@@ -33,7 +33,8 @@ ExactAngle = Annotated[
 ]
 Point = tuple[Length, Length, Length]
 Evidence = Literal["printed", "public", "inferred", "assumed", "stand-in"]
-COLUMNS = ("alpha", "a", "d", "offset", "lower", "upper", "velocity")
+Column = Literal["alpha", "a", "d", "offset", "lower", "upper", "velocity"]
+COLUMNS: tuple[Column, ...] = get_args(Column)
 
 
 class Origin(StrictModel):
@@ -110,7 +111,7 @@ class DHRobot(_Robot):
     convention: Literal["modified", "standard"]
     joints: list[Joint] = Field(min_length=1)
     flange: Flange | None = None
-    provenance: dict[Literal[COLUMNS], ColumnOrigin]
+    provenance: dict[Column, ColumnOrigin]
     capsules: list[Capsule] = Field(default_factory=list)
 
     @model_validator(mode="after")
@@ -204,7 +205,11 @@ class MirrorRobot(_Robot):
 
 
 RobotFile = DHRobot | URDFRobot | MirrorRobot
-_KINDS = {"dh": DHRobot, "urdf": URDFRobot, "mirror": MirrorRobot}
+_KINDS: dict[str, type[DHRobot | URDFRobot | MirrorRobot]] = {
+    "dh": DHRobot,
+    "urdf": URDFRobot,
+    "mirror": MirrorRobot,
+}
 
 
 def load_robot_file(path: Path) -> RobotFile:

@@ -42,7 +42,7 @@ def wrist_geometry(name: str, chain: Chain) -> WristGeometry:
         three axes do not meet in one point, or a link has no length.
     """
 
-    def require(condition: bool, what: str) -> None:
+    def require(condition: bool | np.bool, what: str) -> None:
         if not condition:
             raise UnsupportedArmError(f"arm {name}: closed-form inverse kinematics needs {what}")
 

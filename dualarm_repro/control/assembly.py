@@ -13,13 +13,14 @@ from ..kernel import kernel
 from .avoidance import fill_rows, select_pairs
 from .damper import joint_bounds
 from .kinematics import core_distances, joint_frames, tip_jacobian
+from .parts import ProgramParts
 
 
 class Buffers(NamedTuple):
     """Reused arrays: kinematics, distances and the parts of the problem.
 
     ``distance`` is what the controller goes by, ``surface`` the distance of the link surfaces;
-    ``chosen`` lists the pairs that give rows. Only the first rows of ``G`` and ``h`` are in use.
+    ``chosen`` lists the pairs that give rows. Only the first rows of ``program`` are in use.
     """
 
     frames: np.ndarray
@@ -28,20 +29,14 @@ class Buffers(NamedTuple):
     surface: np.ndarray
     witness: np.ndarray
     chosen: np.ndarray
-    target: np.ndarray
-    A: np.ndarray
-    b: np.ndarray
-    G: np.ndarray
-    h: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    program: ProgramParts
 
 
 @kernel
-def make_buffers(arrays, rows_per_pair):
-    """Buffers for a system; ``rows_per_pair`` is an entry of :data:`.settings.ROWS`."""
+def make_buffers(arrays, numbers):
+    """Buffers for a system."""
     n, arms, pairs = arrays.start[-1], len(arrays.base), len(arrays.pairs)
-    rows = rows_per_pair * pairs
+    rows = numbers.rows_per_pair * pairs
     return Buffers(
         np.empty((n + arms, 3, 4)),
         np.empty((arms, 3)),
@@ -49,13 +44,15 @@ def make_buffers(arrays, rows_per_pair):
         np.empty(pairs),
         np.empty((pairs, 3, 3)),
         np.empty(pairs, np.int64),
-        np.empty(n),
-        np.empty((3 * arms, n)),
-        np.empty(3 * arms),
-        np.empty((rows, n)),
-        np.empty(rows),
-        np.empty(n),
-        np.empty(n),
+        ProgramParts(
+            np.empty(n),
+            np.empty((3 * arms, n)),
+            np.empty(3 * arms),
+            np.empty((rows, n)),
+            np.empty(rows),
+            np.empty(n),
+            np.empty(n),
+        ),
     )
 
 
@@ -70,7 +67,7 @@ def sense(arrays, numbers, q, noise, buffers):
     """
     B = buffers
     joint_frames(arrays, q, B.frames, B.tips)
-    tip_jacobian(arrays, B.frames, B.tips, B.A)
+    tip_jacobian(arrays, B.frames, B.tips, B.program.A)
     core_distances(arrays, B.frames, B.distance, B.witness)
     for k in range(len(B.distance)):
         i, j = arrays.pairs[k]
@@ -86,7 +83,7 @@ def sense(arrays, numbers, q, noise, buffers):
 
 @kernel
 def state(arrays, numbers, q, home, position, velocity, count, buffers):
-    """Write the problem after :func:`sense`; returns the number of rows of G.
+    """Write the program after :func:`sense`; returns it with the rows in use.
 
     Parameters
     ----------
@@ -97,13 +94,14 @@ def state(arrays, numbers, q, home, position, velocity, count, buffers):
     count : int
         How many of ``buffers.chosen`` give rows.
     """
-    B = buffers
+    B, p = buffers, buffers.program
     for i in range(len(q)):
-        B.target[i] = -numbers.repetition * (q[i] - home[i])
+        p.target[i] = -numbers.repetition * (q[i] - home[i])
     for arm in range(len(B.tips)):
         for r in range(3):
-            B.b[3 * arm + r] = velocity[arm, r] + numbers.feedback * (
+            p.b[3 * arm + r] = velocity[arm, r] + numbers.feedback * (
                 position[arm, r] - B.tips[arm, r]
             )
-    joint_bounds(arrays, numbers, q, B.lower, B.upper)
-    return fill_rows(arrays, numbers, B.frames, B.distance, B.witness, B.chosen, count, B.G, B.h)
+    joint_bounds(arrays, numbers, q, p.lower, p.upper)
+    k = fill_rows(arrays, numbers, B.frames, B.distance, B.witness, B.chosen, count, p.G, p.h)
+    return ProgramParts(p.target, p.A, p.b, p.G[:k], p.h[:k], p.lower, p.upper)

@@ -15,24 +15,28 @@ from __future__ import annotations
 import numpy as np
 
 from ..kernel import kernel
+from ..settings import code
 from .damper import approach_bound
 from .kinematics import relative_velocity
+from .settings import PairSelection, RowForm
 
-PAIR_NORMAL, ARM_NORMAL, PAIR_AXES, ARM_AXES, PAIR_COMPONENTS = range(5)
-ALL_WITHIN_OUTER, NEAREST_PER_LINK, SINGLE_NEAREST = range(3)
+_PAIR_NORMAL, _ARM_NORMAL = code(RowForm.PAIR_NORMAL), code(RowForm.ARM_NORMAL)
+_PAIR_AXES, _ARM_AXES = code(RowForm.PAIR_AXES), code(RowForm.ARM_AXES)
+_ALL_WITHIN_OUTER = code(PairSelection.ALL_WITHIN_OUTER)
+_SINGLE_NEAREST = code(PairSelection.SINGLE_NEAREST)
 
 
 @kernel
 def select_pairs(arrays, selection, outer, distance, chosen):
     """Numbers of the pairs that give rows, written to ``chosen`` (P,); returns how many."""
     count = 0
-    if selection == ALL_WITHIN_OUTER:
+    if selection == _ALL_WITHIN_OUTER:
         for k in range(len(distance)):
             if distance[k] < outer:
                 chosen[count] = k
                 count += 1
         return count
-    if selection == SINGLE_NEAREST:
+    if selection == _SINGLE_NEAREST:
         nearest = np.argmin(distance)
         chosen[0] = nearest
         return 1 if distance[nearest] < outer else 0
@@ -70,7 +74,7 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
             numbers.damper, distance[k], numbers.damper_gain, numbers.outer, numbers.inner
         )
         form = numbers.form
-        if form == PAIR_NORMAL:
+        if form == _PAIR_NORMAL:
             for j in range(n):
                 total = 0.0
                 for r in range(3):
@@ -78,7 +82,7 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
                 G[row, j] = total
             h[row] = beta
             row += 1
-        elif form == ARM_NORMAL:
+        elif form == _ARM_NORMAL:
             for side in range(2):
                 if still[side]:  # a fixed base can do nothing about the distance
                     continue
@@ -89,7 +93,7 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
                     G[row, j] = total
                 h[row] = beta
                 row += 1
-        elif form == ARM_AXES:
+        elif form == _ARM_AXES:
             for side in range(2):
                 for r in range(3):
                     if still[side] or normal[r] == 0.0:
@@ -101,8 +105,8 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
             for r in range(3):
                 if normal[r] == 0.0:
                     continue
-                scale = np.sign(normal[r]) if form == PAIR_AXES else normal[r]
+                scale = np.sign(normal[r]) if form == _PAIR_AXES else normal[r]
                 G[row] = -scale * (columns[0, r] + columns[1, r])
-                h[row] = beta if form == PAIR_AXES else normal[r] * normal[r] * beta
+                h[row] = beta if form == _PAIR_AXES else normal[r] * normal[r] * beta
                 row += 1
     return row

@@ -8,15 +8,16 @@ from ..kernel import kernel
 
 
 @kernel
-def residual(v, A, b, G, h, lower, upper, x, y, z, w):
+def residual(program, x, y, z, w):
     """Largest violation, gradient of the Lagrangian, wrong sign and complementarity product.
 
     All but the violation are taken by the size of the multipliers.
     """
+    target, A, b, G, h, lower, upper = program
     violation, dual, size = 0.0, 0.0, 0.0
     gradient = np.empty(len(x))
     for i in range(len(x)):
-        gradient[i] = x[i] - v[i] + w[i]
+        gradient[i] = x[i] - target[i] + w[i]
         low, high = x[i] - lower[i], upper[i] - x[i]
         violation = max(violation, -low, -high)
         size = max(size, abs(w[i]))

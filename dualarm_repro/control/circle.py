@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, UnknownNameError
+from ..errors import InputError
 from ..kernel import kernel
+from ..settings import choice, code
 
-TIME_LAWS = ("rest_to_rest", "constant_speed")
+
+class TimeLaw(StrEnum):
+    """How s runs from 0 to 2 pi."""
+
+    REST_TO_REST = "rest_to_rest"
+    CONSTANT_SPEED = "constant_speed"
+
+
+_REST_TO_REST = code(TimeLaw.REST_TO_REST)
 
 
 class CircleNumbers(NamedTuple):
@@ -34,7 +44,7 @@ class Circles:
     u, v : (A, 3)
         Orthogonal, of the length of the radius [m]; the path starts at centre + u.
     duration : float [s]
-    law : str
+    law : TimeLaw
         ``rest_to_rest``: s = 2 pi sin^2(pi t / (2 T)); ``constant_speed``: s = 2 pi t / T.
 
     Raises
@@ -45,11 +55,22 @@ class Circles:
         No such time law.
     """
 
-    centre: ArrayLike
-    u: ArrayLike
-    v: ArrayLike
+    centre: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
     duration: float = 10.0
-    law: str = "rest_to_rest"
+    law: TimeLaw = TimeLaw.REST_TO_REST
+
+    if TYPE_CHECKING:  # anything that makes an array is taken, and a law by its name
+
+        def __init__(
+            self,
+            centre: ArrayLike,
+            u: ArrayLike,
+            v: ArrayLike,
+            duration: float = 10.0,
+            law: str = "rest_to_rest",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for name in ("centre", "u", "v"):
@@ -64,33 +85,29 @@ class Circles:
             object.__setattr__(self, name, array)
         if not (np.isfinite(self.duration) and self.duration > 0):
             raise InputError("Circles", "duration", self.duration, "a positive time [s]")
-        if self.law not in TIME_LAWS:
-            raise UnknownNameError("Circles", "law", self.law, f"one of {', '.join(TIME_LAWS)}")
+        object.__setattr__(self, "law", choice(TimeLaw, "Circles", "law", self.law))
 
     @classmethod
     def through(
-        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing
+        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing: Any
     ) -> Circles:
         """Circles that start at ``tips``, in planes normal to ``normals``.
 
         ``angles`` turn the direction from the tip to the centre within each plane.
         """
-        tips, normals = np.asarray(tips, dtype=float), np.asarray(normals, dtype=float)
-        angles = np.asarray(angles, dtype=float)[:, None]
-        normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        n = np.asarray(normals, dtype=float)
+        n = n / np.linalg.norm(n, axis=1, keepdims=True)
         # Any direction in the plane: the one from the axis that the normal is farthest from.
-        axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-        e = np.cross(normals, axis)
+        axis = np.eye(3)[np.argmin(np.abs(n), axis=1)]
+        e = np.cross(n, axis)
         e /= np.linalg.norm(e, axis=1, keepdims=True)
-        f = np.cross(normals, e)
-        u = radius * (np.cos(angles) * e + np.sin(angles) * f)
-        return cls(tips - u, u, np.cross(normals, u), **timing)
+        turned = np.asarray(angles, dtype=float)[:, None]
+        u = radius * (np.cos(turned) * e + np.sin(turned) * np.cross(n, e))
+        return cls(np.asarray(tips, dtype=float) - u, u, np.cross(n, u), **timing)
 
     def numbers(self) -> CircleNumbers:
         """For the kernels."""
-        return CircleNumbers(
-            self.centre, self.u, self.v, float(self.duration), TIME_LAWS.index(self.law)
-        )
+        return CircleNumbers(self.centre, self.u, self.v, float(self.duration), code(self.law))
 
     def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """Positions and velocities (A, 3) at a time; it repeats every ``duration``."""
@@ -104,7 +121,7 @@ def follow(circle, t, position, velocity):
     """r(t) and dr/dt (A, 3); the path repeats every ``duration``."""
     T = circle.duration
     turns = np.floor(t / T)
-    if circle.law == 0:
+    if circle.law == _REST_TO_REST:
         phase = 0.5 * np.pi * (t - turns * T) / T
         s = 2.0 * np.pi * np.sin(phase) ** 2
         ds = 2.0 * np.pi * np.pi / T * np.sin(phase) * np.cos(phase)

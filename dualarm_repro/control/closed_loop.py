@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import numpy as np
 
 from ..kernel import kernel
+from ..settings import code
 from .assembly import make_buffers, sense, state
 from .certificate import residual
 from .circle import follow
 from .least_distance import SOLVED, least_distance
+from .parts import with_task
 from .problem import CERTIFIED
 from .relaxed import least_distance_with_slack
 
-DONE, NO_SOLUTION, UNCERTIFIED, DIVERGED = range(4)
-#: Why a run ended early.
-REASONS = {
-    NO_SOLUTION: "no joint velocity satisfies all constraints",
-    UNCERTIFIED: "the solution failed its certificate",
-    DIVERGED: "the network diverged",
-}
+
+class Ending(StrEnum):
+    """How a run ended."""
+
+    DONE = "done"
+    NO_SOLUTION = "no joint velocity satisfies all constraints"
+    UNCERTIFIED = "the solution failed its certificate"
+    DIVERGED = "the network diverged"
+
+
+DONE, DIVERGED = code(Ending.DONE), code(Ending.DIVERGED)
+_NO_SOLUTION, _UNCERTIFIED = code(Ending.NO_SOLUTION), code(Ending.UNCERTIFIED)
 
 
 @kernel
@@ -33,7 +42,7 @@ def observe(buffers, position, error):
 
 
 @kernel
-def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise, rows_per_pair):
+def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
     """q' = x(q, t) by explicit Euler steps, x the exact minimiser.
 
     Parameters
@@ -46,7 +55,7 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise, rows_
     Returns
     -------
     status, taken : int
-        How the run ended and after how many steps.
+        Number of the :class:`Ending`, and after how many steps.
     q : (steps + 1, n)
     x : (steps, n)
     error : (steps + 1, A)
@@ -58,38 +67,33 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise, rows_
         Norm of what the task gave up [m/s].
     """
     n, arms = len(q0), len(arrays.base)
-    buffers = make_buffers(arrays, rows_per_pair)
+    buffers = make_buffers(arrays, numbers)
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
     rows, slack = np.zeros(steps, np.int64), np.zeros(steps)
     q[0] = q0
     status = DONE
-    B = buffers
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
         count = sense(arrays, numbers, q[step], reading, buffers)
         follow(circle, step * dt, position, velocity)
-        distance[step] = observe(B, position, error[step])
+        distance[step] = observe(buffers, position, error[step])
         if step == steps:
             break
-        k = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
-        G, h = B.G[:k], B.h[:k]
-        found, v, y, z, w = least_distance(B.target, B.A, B.b, G, h, B.lower, B.upper)
-        task = B.b
+        program = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
+        found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
-            found, v, y, z, w, s = least_distance_with_slack(
-                B.target, B.A, B.b, G, h, B.lower, B.upper, slack_weight
-            )
+            found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)
             slack[step] = np.sqrt((s * s).sum())
-            task = B.b - s
+            program = with_task(program, program.b - s)
         if found != SOLVED:
-            status = NO_SOLUTION
-        elif residual(B.target, B.A, task, G, h, B.lower, B.upper, v, y, z, w) > CERTIFIED:
-            status = UNCERTIFIED
+            status = _NO_SOLUTION
+        elif residual(program, v, y, z, w) > CERTIFIED:
+            status = _UNCERTIFIED
         if status != DONE:
             return status, step, q, x, error, distance, rows, slack
-        rows[step] = k
+        rows[step] = len(program.h)
         x[step] = v
         q[step + 1] = q[step] + dt * v
     return status, steps, q, x, error, distance, rows, slack

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -13,61 +14,42 @@ from .least_distance import least_distance
 from .neural.network import network_rate
 from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import iterate
-from .problem import Problem
+from .parts import program_of
+from .problem import QuadraticProgram
 from .recorded import stacked
 
 
 @kernel
-def exact_all(data, x):
+def exact_all(stack, x):
     """Minimisers of all problems, each from nothing."""
-    target, A, b, G, h, lower, upper, rows = data
-    for f in range(len(rows)):
-        k = rows[f]
-        x[f] = least_distance(target[f], A[f], b[f], G[f, :k], h[f, :k], lower[f], upper[f])[1]
+    for f in range(len(stack.rows)):
+        x[f] = least_distance(program_of(stack, f))[1]
 
 
 @kernel
-def newton_all(data, network, steps, x):
+def newton_all(stack, network, steps, x):
     """``steps`` network steps of unit gain (Newton steps) a problem, warm from the one before."""
-    target, A, b, G, h, lower, upper, rows = data
-    n, m = len(target[0]), len(b[0])
+    n, m = len(stack.parts.target[0]), len(stack.parts.b[0])
     y, rate, still = np.zeros(n + m), np.empty(n + m), np.zeros(n + m)
-    for f in range(len(rows)):
-        k = rows[f]
+    for f in range(len(stack.rows)):
+        program = program_of(stack, f)
         for _ in range(steps):
-            network_rate(
-                *(
-                    network,
-                    1.0,
-                    still,
-                    target[f],
-                    A[f],
-                    b[f],
-                    G[f, :k],
-                    h[f, :k],
-                    lower[f],
-                    upper[f],
-                    y,
-                    rate,
-                )
-            )
+            network_rate(network, 1.0, still, program, y, rate)
             y += rate
         x[f] = y[:n]
 
 
 @kernel
-def primal_dual_all(data, iterations, x):
+def primal_dual_all(stack, iterations, x):
     """``iterations`` steps of the primal-dual network a problem, warm; z only while rows stay."""
-    target, A, b, G, h, lower, upper, rows = data
-    n, m = len(target[0]), len(b[0])
+    n, m = len(stack.parts.target[0]), len(stack.parts.b[0])
     u = np.zeros(n + m)
-    for f in range(len(rows)):
-        k = rows[f]
-        longer = np.zeros(n + m + k)
+    for f in range(len(stack.rows)):
+        longer = np.zeros(n + m + stack.rows[f])
         kept = len(u) if len(u) == len(longer) else n + m
         longer[:kept] = u[:kept]
         u = longer
-        iterate(target[f], A[f], b[f], G[f, :k], h[f, :k], lower[f], upper[f], u, iterations, 0.0)
+        iterate(program_of(stack, f), u, iterations, 0.0)
         x[f] = u[:n]
 
 
@@ -89,7 +71,7 @@ class Entry:
 
 
 def contest(
-    problems: list[Problem],
+    problems: list[QuadraticProgram],
     network: NetworkSettings,
     newton_steps: tuple[int, ...],
     iterations: tuple[int, ...],
@@ -100,15 +82,15 @@ def contest(
     The problems are taken in order, so that each method starts from the state before; the exact one
     starts from nothing. Runs of the contestants alternate, so that load of the machine hits all.
     """
-    data = stacked(problems)
+    stack = stacked(problems)
     numbers = network.numbers()
     runs: dict[tuple[str, int], Callable[[np.ndarray], None]] = {
-        ("active_set", 1): lambda x: exact_all(data, x)
+        ("active_set", 1): partial(exact_all, stack)
     }
     for steps in newton_steps:
-        runs["network", steps] = lambda x, steps=steps: newton_all(data, numbers, steps, x)
+        runs["network", steps] = partial(newton_all, stack, numbers, steps)
     for count in iterations:
-        runs["primal_dual", count] = lambda x, count=count: primal_dual_all(data, count, x)
+        runs["primal_dual", count] = partial(primal_dual_all, stack, count)
     found = {key: np.empty((len(problems), problems[0].size)) for key in runs}
     for key, run in runs.items():
         run(found[key])
@@ -130,5 +112,5 @@ def contest(
     ]
 
 
-def _violation(problems: list[Problem], x: np.ndarray) -> float:
+def _violation(problems: list[QuadraticProgram], x: np.ndarray) -> float:
     return float(max((p.G @ v - p.h).max(initial=0.0) for p, v in zip(problems, x, strict=True)))

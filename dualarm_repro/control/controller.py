@@ -10,16 +10,16 @@ from ..kernel import kernel
 from .assembly import make_buffers, sense, state
 from .certificate import residual
 from .least_distance import INFEASIBLE, SOLVED, least_distance
-from .problem import CERTIFIED, NoSolution, Problem, Solution
+from .problem import CERTIFIED, NoSolution, QuadraticProgram, Solution
 from .relaxed import least_distance_with_slack
-from .settings import ROWS, Settings
+from .settings import ControllerSettings
 from .simulate import SLACK_WEIGHT
 from .system import ArmSystem
 
 
 @kernel
 def stated(arrays, numbers, q, home, position, velocity, buffers):
-    """Write the problem of one step into the buffers; returns its number of rows."""
+    """Write the problem of one step into the buffers; returns it with the rows in use."""
     count = sense(arrays, numbers, q, np.empty(0), buffers)
     return state(arrays, numbers, q, home, position, velocity, count, buffers)
 
@@ -27,11 +27,9 @@ def stated(arrays, numbers, q, home, position, velocity, buffers):
 @kernel
 def control_step(arrays, numbers, q, home, position, velocity, buffers):
     """State, solve and certify one step: status, number of rows, residual, joint velocity."""
-    k = stated(arrays, numbers, q, home, position, velocity, buffers)
-    B = buffers
-    G, h = B.G[:k], B.h[:k]
-    status, x, y, z, w = least_distance(B.target, B.A, B.b, G, h, B.lower, B.upper)
-    return status, k, residual(B.target, B.A, B.b, G, h, B.lower, B.upper, x, y, z, w), x
+    program = stated(arrays, numbers, q, home, position, velocity, buffers)
+    status, x, y, z, w = least_distance(program)
+    return status, len(program.h), residual(program, x, y, z, w), x
 
 
 class VelocityController:
@@ -40,7 +38,7 @@ class VelocityController:
     Parameters
     ----------
     system : ArmSystem
-    settings : Settings
+    settings : ControllerSettings
     home : (n,), optional
         q_0 of the repetitive term [rad]; default: the first configuration asked for.
     slack : bool
@@ -55,14 +53,14 @@ class VelocityController:
     def __init__(
         self,
         system: ArmSystem,
-        settings: Settings | None = None,
+        settings: ControllerSettings | None = None,
         *,
         home: ArrayLike | None = None,
         slack: bool = False,
     ) -> None:
-        self.system, self.settings, self.slack = system, settings or Settings(), slack
+        self.system, self.settings, self.slack = system, settings or ControllerSettings(), slack
         self._numbers = self.settings.numbers()
-        self._buffers = make_buffers(system.arrays, ROWS[self._numbers.form])
+        self._buffers = make_buffers(system.arrays, self._numbers)
         self._home = None if home is None else system.configuration(home)
 
     def velocity(self, q: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> np.ndarray:
@@ -93,13 +91,13 @@ class VelocityController:
     def solution(self, q: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> Solution:
         """The same with multipliers, slack and certificate."""
         problem = self.problem(q, position, velocity)
-        status, *parts = least_distance(*problem.parts)
+        status, *parts = least_distance(problem.parts)
         found = Solution(problem, *parts) if status == SOLVED else None
         return found if found and found.certified() else self._yielding(status)
 
-    def problem(self, q: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> Problem:
+    def problem(self, q: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> QuadraticProgram:
         """The problem of this step, as stated, for any solver."""
-        self._count = stated(*self._checked(q, position, velocity), self._buffers)
+        self._count = len(stated(*self._checked(q, position, velocity), self._buffers).h)
         return self._problem()
 
     @property
@@ -132,16 +130,16 @@ class VelocityController:
             )
         return array
 
-    def _problem(self) -> Problem:
-        B, k = self._buffers, self._count
-        parts = (B.target, B.A, B.b, B.G[:k], B.h[:k], B.lower, B.upper)
-        return Problem(*(part.copy() for part in parts))
+    def _problem(self) -> QuadraticProgram:
+        p, k = self._buffers.program, self._count
+        parts = p._replace(G=p.G[:k], h=p.h[:k])
+        return QuadraticProgram(*(part.copy() for part in parts))
 
     def _yielding(self, status: int) -> Solution:
         """Solution with slack, or the error that says what is wrong."""
         problem = self._problem()
         if self.slack:
-            status, *parts = least_distance_with_slack(*problem.parts, SLACK_WEIGHT)
+            status, *parts = least_distance_with_slack(problem.parts, SLACK_WEIGHT)
             solution = Solution(problem, *parts)
             if status == SOLVED and solution.certified():
                 return solution

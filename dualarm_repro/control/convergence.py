@@ -10,7 +10,7 @@ from .contest import newton_all
 from .neural.network import network_rate
 from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import iterate
-from .problem import Problem
+from .problem import QuadraticProgram
 from .recorded import stacked
 from .solvers import solve
 
@@ -21,29 +21,29 @@ def first_within(errors: np.ndarray, threshold: float) -> int | None:
     return int(below[0]) if len(below) else None
 
 
-def network_errors(p: Problem, network: NetworkSettings, steps: int) -> np.ndarray:
+def network_errors(p: QuadraticProgram, network: NetworkSettings, steps: int) -> np.ndarray:
     """|x - x*|_inf before each of so many steps of unit gain (Newton steps) [rad/s]."""
     size, exact = p.size + len(p.b), solve(p).x
     y, rate, still, errors = np.zeros(size), np.empty(size), np.zeros(size), []
     for _ in range(steps):
         errors.append(float(np.abs(y[: p.size] - exact).max()))
-        network_rate(network.numbers(), 1.0, still, *p.parts, y, rate)
+        network_rate(network.numbers(), 1.0, still, p.parts, y, rate)
         y += rate
     return np.array(errors)
 
 
-def primal_dual_errors(p: Problem, counts: Iterable[int]) -> np.ndarray:
+def primal_dual_errors(p: QuadraticProgram, counts: Iterable[int]) -> np.ndarray:
     """|x - x*|_inf of the primal-dual network after these rising numbers of iterations [rad/s]."""
     exact, u, done, errors = solve(p).x, np.zeros(p.size + len(p.b) + len(p.h)), 0, []
     for count in counts:
-        iterate(*p.parts, u, int(count) - done, 0.0)
+        iterate(p.parts, u, int(count) - done, 0.0)
         done = int(count)
         errors.append(float(np.abs(u[: p.size] - exact).max()))
     return np.array(errors)
 
 
 def steps_in_a_row(
-    problems: list[Problem], network: NetworkSettings, threshold: float, most: int
+    problems: list[QuadraticProgram], network: NetworkSettings, threshold: float, most: int
 ) -> tuple[int, float]:
     """Least Newton steps a problem with which the network follows problems in a row, and the error.
 

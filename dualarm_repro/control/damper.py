@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..kernel import kernel
+from ..settings import code
+from .settings import Damper
 
-LINEAR, SINE_SQUARED, STEP, ZERO_INSIDE = range(4)
+_LINEAR, _SINE_SQUARED, _STEP = code(Damper.LINEAR), code(Damper.SINE_SQUARED), code(Damper.STEP)
 
 
 @kernel
@@ -19,12 +21,12 @@ def approach_bound(law, d, gain, outer, inner):
     zero_inside    0
     """
     v = gain * (outer - inner)
-    if law == LINEAR:
+    if law == _LINEAR:
         return gain * (d - inner)
-    if law == SINE_SQUARED:
+    if law == _SINE_SQUARED:
         s = np.sin(0.5 * np.pi * min(max((d - inner) / (outer - inner), 0.0), 1.0))
         return v * s * s
-    if law == STEP:
+    if law == _STEP:
         return v if d >= inner else -v
     return 0.0
 

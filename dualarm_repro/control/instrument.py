@@ -56,7 +56,8 @@ class Instrument:
         function = kernel.py_func
         if function not in self._twins:
             tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
-            tree.body[0].decorator_list = []
+            (definition,) = tree.body
+            definition.decorator_list = []  # type: ignore[attr-defined]
             tree = ast.fix_missing_locations(_Counted().visit(tree))
             names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
             scope = dict(function.__globals__) | {"_counted": self._count}

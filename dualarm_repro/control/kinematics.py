@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arms.kernels import Chain
 from ..kernel import kernel
+from ..scene.posing import link_frames
 from ..scene.segments import segment_segment
 from ..scene.vectors import cross, minus, vector
 
 
 @kernel
 def joint_frames(arrays, q, frames, tips):
-    """F_j = F_(j-1) C_(j-1) Rz(q_j) from each base, and the flange positions.
+    """Frames of all arms as :func:`..scene.posing.link_frames` has them, and the flange positions.
 
     Parameters
     ----------
@@ -25,20 +27,12 @@ def joint_frames(arrays, q, frames, tips):
     tips : (A, 3), output [m]
     """
     for arm in range(len(arrays.base)):
-        row = arrays.start[arm] + arm
-        frames[row] = arrays.base[arm]
-        for joint in range(arrays.start[arm], arrays.start[arm + 1]):
-            F, G = frames[row], frames[row + 1]
-            C, t = arrays.rotation[row], arrays.translation[row]
-            s, c = np.sin(q[joint]), np.cos(q[joint])
-            for r in range(3):
-                x = F[r, 0] * C[0, 0] + F[r, 1] * C[1, 0] + F[r, 2] * C[2, 0]
-                y = F[r, 0] * C[0, 1] + F[r, 1] * C[1, 1] + F[r, 2] * C[2, 1]
-                G[r, 0], G[r, 1] = c * x + s * y, c * y - s * x
-                G[r, 2] = F[r, 0] * C[0, 2] + F[r, 1] * C[1, 2] + F[r, 2] * C[2, 2]
-                G[r, 3] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
-            row += 1
-        F, t = frames[row], arrays.translation[row]
+        first, last = arrays.start[arm], arrays.start[arm + 1]
+        row, flange = first + arm, last + arm
+        chain = Chain(arrays.rotation[row:flange], arrays.translation[row:flange])
+        angles = q[first:last].reshape(1, -1)
+        frames[row : flange + 1] = link_frames(chain, arrays.base[arm], angles)[0]
+        F, t = frames[flange], arrays.translation[flange]
         for r in range(3):
             tips[arm, r] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
 

@@ -1,4 +1,4 @@
-"""Dual active-set method for min 1/2 |x - v|^2 under equalities, inequalities and bounds.
+"""Dual active-set method for min 1/2 |x - target|^2 under equalities, inequalities and bounds.
 
 D. Goldfarb and A. Idnani, A numerically stable dual method for solving strictly convex quadratic
 programs, Math. Programming 27, 1983, for the identity as Hessian: the normals of the active
@@ -18,13 +18,13 @@ _DEPENDENT = 1e-12  # squared length of the part of a normal outside the active 
 
 
 @kernel
-def least_distance(v, A, b, G, h, lower, upper):
-    """Solve one problem.
+def least_distance(program):
+    """Solve one program.
 
     Parameters
     ----------
-    v, A, b, G, h, lower, upper
-        As in :class:`.problem.Problem`, contiguous float arrays.
+    program : ProgramParts
+        Of contiguous float arrays.
 
     Returns
     -------
@@ -34,8 +34,9 @@ def least_distance(v, A, b, G, h, lower, upper):
     y, z, w : (m,), (k,), (n,)
         Multipliers as in :class:`.problem.Solution`.
     """
-    n, m, k = len(v), len(b), len(h)
-    x, a = v.copy(), np.empty(n)
+    target, A, b, G, h, lower, upper = program
+    n, m, k = len(target), len(b), len(h)
+    x, a = target.copy(), np.empty(n)
     Q, R = np.eye(n), np.zeros((n, n))
     d, r, z, u = np.empty(n), np.empty(n), np.empty(n), np.zeros(n + 1)
     active = np.empty(n, np.int64)

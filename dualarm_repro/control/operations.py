@@ -13,46 +13,46 @@ from .neural.network import network_rate, state_rate
 from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import iterate
 from .neural.saddle import solve_saddle
-from .problem import Problem
-from .settings import ROWS, Settings
+from .problem import QuadraticProgram
+from .settings import ControllerSettings
 from .system import ArmSystem
 
 
-def exact_cost(p: Problem) -> Cost:
+def exact_cost(p: QuadraticProgram) -> Cost:
     """The dual active-set method from nothing to the minimiser."""
-    return Instrument().cost(least_distance, *p.parts)
+    return Instrument().cost(least_distance, p.parts)
 
 
-def pseudo_inverse_cost(p: Problem) -> Cost:
+def pseudo_inverse_cost(p: QuadraticProgram) -> Cost:
     """J^+ dr/dt by the Cholesky factor of J J^T, as the saddle point with the identity."""
     right = np.concatenate([p.target, p.b])
     return Instrument().cost(solve_saddle, np.eye(p.size), p.A.copy(), right)
 
 
-def network_cost(p: Problem, network: NetworkSettings) -> Cost:
+def network_cost(p: QuadraticProgram, network: NetworkSettings) -> Cost:
     """One evaluation of the state derivative at zero, with the step that follows."""
     size = p.size + len(p.b)
     y, rate, still = np.zeros(size), np.empty(size), np.zeros(size)
-    rest = Instrument().cost(network_rate, network.numbers(), 1.0, still, *p.parts, y, rate)
+    rest = Instrument().cost(network_rate, network.numbers(), 1.0, still, p.parts, y, rate)
     return Cost(rest.operations + size, rest.functions)
 
 
-def primal_dual_cost(p: Problem) -> Cost:
+def primal_dual_cost(p: QuadraticProgram) -> Cost:
     """One iteration of the primal-dual network."""
-    return Instrument().cost(iterate, *p.parts, np.zeros(p.size + len(p.b) + len(p.h)), 1, 0.0)
+    return Instrument().cost(iterate, p.parts, np.zeros(p.size + len(p.b) + len(p.h)), 1, 0.0)
 
 
 def control_cost(
     system: ArmSystem,
     circles: Circles,
     home: np.ndarray,
-    settings: Settings,
+    settings: ControllerSettings,
     q: np.ndarray,
     t: float,
 ) -> Cost:
     """One whole step of the exact controller: kinematics, distances, rows, minimiser, check."""
     numbers = settings.numbers()
-    buffers = make_buffers(system.arrays, ROWS[numbers.form])
+    buffers = make_buffers(system.arrays, numbers)
     position, velocity = np.empty((2, len(system.arms), 3))
     follow(circles.numbers(), t, position, velocity)
     state = (np.ascontiguousarray(q), home, position, velocity)
@@ -63,7 +63,7 @@ def network_control_cost(
     system: ArmSystem,
     circles: Circles,
     home: np.ndarray,
-    settings: Settings,
+    settings: ControllerSettings,
     network: NetworkSettings,
     dt: float,
     q: np.ndarray,
@@ -72,7 +72,7 @@ def network_control_cost(
 ) -> Cost:
     """One whole step of the network at a fixed rate."""
     numbers = settings.numbers()
-    buffers = make_buffers(system.arrays, ROWS[numbers.form])
+    buffers = make_buffers(system.arrays, numbers)
     return Instrument().cost(
         state_rate,
         *(system.arrays, numbers, network.numbers(dt), circles.numbers()),

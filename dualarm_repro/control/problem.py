@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DualArmError, InputError, shorten
+from .parts import ProgramParts
 
 #: Residual up to which a solution counts as certified.
 CERTIFIED = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class QuadraticProgram:
     """min 1/2 |x - target|^2  s.t.  A x = b,  G x <= h,  lower <= x <= upper.
 
     The velocity-level problem of a redundant arm (Whitney 1969 for the objective, Faverjon and
@@ -36,13 +38,26 @@ class Problem:
         Shapes that do not fit, NaN, infinity other than in a bound, lower above upper.
     """
 
-    target: ArrayLike
-    A: ArrayLike
-    b: ArrayLike
-    G: ArrayLike
-    h: ArrayLike
-    lower: ArrayLike
-    upper: ArrayLike
+    target: np.ndarray
+    A: np.ndarray
+    b: np.ndarray
+    G: np.ndarray
+    h: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(
+            self,
+            target: ArrayLike,
+            A: ArrayLike,
+            b: ArrayLike,
+            G: ArrayLike,
+            h: ArrayLike,
+            lower: ArrayLike,
+            upper: ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for name in self.__dataclass_fields__:
@@ -50,7 +65,7 @@ class Problem:
             try:
                 array = np.ascontiguousarray(value, dtype=float)
             except (TypeError, ValueError):
-                raise InputError("Problem", name, value, "an array of numbers") from None
+                raise InputError("QuadraticProgram", name, value, "an array of numbers") from None
             object.__setattr__(self, name, array)
         n, m, k = len(np.atleast_1d(self.target)), np.size(self.b), np.size(self.h)
         shapes = {
@@ -65,14 +80,16 @@ class Problem:
         for name, shape in shapes.items():
             array = getattr(self, name)
             if array.shape != shape:
-                raise InputError("Problem", f"shape of {name}", array.shape, str(shape))
+                raise InputError("QuadraticProgram", f"shape of {name}", array.shape, str(shape))
             allowed = np.isfinite(array) if name not in ("lower", "upper") else ~np.isnan(array)
             if not allowed.all():
-                raise InputError("Problem", name, float(array[~allowed][0]), "finite numbers")
+                raise InputError(
+                    "QuadraticProgram", name, float(array[~allowed][0]), "finite numbers"
+                )
         if not (self.lower <= self.upper).all():
             worst = int(np.argmax(self.lower - self.upper))
             raise InputError(
-                "Problem",
+                "QuadraticProgram",
                 f"lower[{worst}]",
                 float(self.lower[worst]),
                 f"at most upper, {self.upper[worst]:g}",
@@ -84,9 +101,9 @@ class Problem:
         return len(self.target)
 
     @property
-    def parts(self) -> tuple[np.ndarray, ...]:
-        """target, A, b, G, h, lower, upper, as the kernels take them."""
-        return self.target, self.A, self.b, self.G, self.h, self.lower, self.upper
+    def parts(self) -> ProgramParts:
+        """As the kernels take it."""
+        return ProgramParts(*(getattr(self, name) for name in ProgramParts._fields))
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,15 +120,15 @@ class Solution:
         What was taken off the task, A x = b - slack; zero unless the task had to yield.
     """
 
-    problem: Problem
+    problem: QuadraticProgram
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
     w: np.ndarray
-    slack: np.ndarray = field(default=None)
+    slack: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        if self.slack is None:
+        if not len(self.slack):
             object.__setattr__(self, "slack", np.zeros_like(self.problem.b))
 
     @cached_property
@@ -160,7 +177,7 @@ class Solution:
 class NoSolution(DualArmError):
     """No point satisfies the constraints, or none could be certified; keeps the problem."""
 
-    def __init__(self, source: str, problem: Problem, reason: str) -> None:
+    def __init__(self, source: str, problem: QuadraticProgram, reason: str) -> None:
         self.source, self.problem, self.reason = source, problem, reason
         size = (
             f"{problem.size} unknowns, {len(problem.b)} equalities, {len(problem.h)} inequalities"

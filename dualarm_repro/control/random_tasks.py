@@ -9,7 +9,7 @@ import numpy as np
 
 from .circle import Circles
 from .motion import Motion
-from .settings import Settings
+from .settings import ControllerSettings
 from .simulate import pseudo_inverse, simulate
 from .system import ArmSystem
 
@@ -54,13 +54,13 @@ def draw_task(
     return CircleTask(q0, normals, angles, float(rng.uniform(*radii)))
 
 
-def naive_motion(system: ArmSystem, task: CircleTask, settings: Settings) -> Motion:
+def naive_motion(system: ArmSystem, task: CircleTask, settings: ControllerSettings) -> Motion:
     """One turn by the pseudo-inverse, in the coarse steps of a screening."""
     circles = task.circles(system)
     return simulate(system, circles, task.q0, pseudo_inverse(settings), dt=SCREEN_STEP)
 
 
-def admissible(naive: Motion, settings: Settings) -> bool:
+def admissible(naive: Motion, settings: ControllerSettings) -> bool:
     """Whether a naive motion stays on its path and starts outside the outer range."""
     reached = naive.completed and naive.largest_error < WITHIN_REACH
     return bool(reached and naive.distance[0] > settings.outer)

@@ -7,14 +7,15 @@ import numpy as np
 from .circle import Circles
 from .controller import VelocityController
 from .motion import Motion
-from .problem import Problem
-from .settings import Settings
+from .parts import ProgramParts, ProgramStack
+from .problem import QuadraticProgram
+from .settings import ControllerSettings
 from .system import ArmSystem
 
 
 def recorded_problems(
-    system: ArmSystem, circles: Circles, motion: Motion, settings: Settings, every: int
-) -> list[Problem]:
+    system: ArmSystem, circles: Circles, motion: Motion, settings: ControllerSettings, every: int
+) -> list[QuadraticProgram]:
     """The problem of each ``every``-th step of a motion."""
     controller = VelocityController(system, settings, home=motion.q[0])
     return [
@@ -23,13 +24,8 @@ def recorded_problems(
     ]
 
 
-def stacked(problems: list[Problem]) -> tuple[np.ndarray, ...]:
-    """All problems in arrays with a leading axis, G and h padded, and the rows in use.
-
-    Returns
-    -------
-    target, A, b, G, h, lower, upper, rows
-    """
+def stacked(problems: list[QuadraticProgram]) -> ProgramStack:
+    """All problems in arrays with a leading axis, for the kernels."""
     rows = np.array([len(p.h) for p in problems])
     n, most = problems[0].size, int(rows.max(initial=0))
     G, h = np.zeros((len(problems), most, n)), np.zeros((len(problems), most))
@@ -39,4 +35,4 @@ def stacked(problems: list[Problem]) -> tuple[np.ndarray, ...]:
         np.array([getattr(p, name) for p in problems])
         for name in ("target", "A", "b", "lower", "upper")
     )
-    return target, A, b, G, h, lower, upper, rows
+    return ProgramStack(ProgramParts(target, A, b, G, h, lower, upper), rows)

@@ -6,8 +6,8 @@ import numpy as np
 import pinocchio as pin
 
 from .controller import VelocityController
-from .problem import Problem
-from .settings import Settings
+from .problem import QuadraticProgram
+from .settings import ControllerSettings
 from .simulate import pseudo_inverse
 from .system import ArmSystem
 
@@ -17,7 +17,7 @@ def self_motion(system: ArmSystem, q: np.ndarray) -> np.ndarray:
 
     Steps (I - J^+ J) 1 of 0.01 rad with feedback on the tips, then steps of the feedback alone.
     """
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     tips, still = system.tips(q), np.zeros((len(system.arms), 3))
     moved, direction = q.copy(), np.ones(system.nq)
     for _ in range(400):
@@ -32,7 +32,7 @@ def self_motion(system: ArmSystem, q: np.ndarray) -> np.ndarray:
     return moved
 
 
-def inertia_weighted(system: ArmSystem, q: np.ndarray, p: Problem) -> np.ndarray:
+def inertia_weighted(system: ArmSystem, q: np.ndarray, p: QuadraticProgram) -> np.ndarray:
     """min x^T M(q) x under the task A x = b of a problem, M the joint-space inertia [rad/s]."""
     W = np.zeros((system.nq, system.nq))
     start = system.arrays.start

@@ -13,7 +13,7 @@ Number = Annotated[float, Field(allow_inf_nan=False)]
 Triple = tuple[Number, Number, Number]
 
 
-class ArmTask(StrictModel):
+class ArmStart(StrictModel):
     """Start of one arm and the plane and phase of its circle."""
 
     q: list[Number] = Field(min_length=1, description="start [rad]")
@@ -37,8 +37,8 @@ class Scenario(StrictModel):
     base_distance: float = Field(gt=0, allow_inf_nan=False, description="[m]")
     radius: float = Field(gt=0, allow_inf_nan=False, description="of the circles [m]")
     duration: float = Field(gt=0, allow_inf_nan=False, description="of one turn [s]")
-    left: ArmTask
-    right: ArmTask
+    left: ArmStart
+    right: ArmStart
     found: Found
 
 

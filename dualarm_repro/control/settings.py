@@ -2,29 +2,61 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import isfinite
-from typing import NamedTuple
+from enum import StrEnum
+from typing import Annotated, NamedTuple
 
-from ..errors import InputError, UnknownNameError
+from pydantic import Field, ValidationInfo, field_validator
 
-#: How the bound on the approach of a pair depends on its distance.
-DAMPERS = ("linear", "sine_squared", "step", "zero_inside")
-#: What is bounded: readings of the row J_N of a pair.
-FORMS = ("pair_normal", "arm_normal", "pair_axes", "arm_axes", "pair_components")
-#: Which of the pairs within the outer range give rows.
-SELECTIONS = ("all_within_outer", "nearest_per_link", "single_nearest")
-#: Rows that one pair gives under each form.
-ROWS = (1, 2, 3, 6, 3)
+from ..settings import Positive, Settings, code
+
+NotNegative = Annotated[float, Field(ge=0)]
 
 
-class Numbers(NamedTuple):
-    """The settings as the kernels read them; names are numbered in the order of the lists above."""
+class Damper(StrEnum):
+    """How the bound on the approach of a pair depends on its distance, as in :mod:`.damper`."""
+
+    LINEAR = "linear"
+    SINE_SQUARED = "sine_squared"
+    STEP = "step"
+    ZERO_INSIDE = "zero_inside"
+
+
+class RowForm(StrEnum):
+    """What is bounded: readings of the row J_N of a pair, as in :mod:`.avoidance`."""
+
+    PAIR_NORMAL = "pair_normal"
+    ARM_NORMAL = "arm_normal"
+    PAIR_AXES = "pair_axes"
+    ARM_AXES = "arm_axes"
+    PAIR_COMPONENTS = "pair_components"
+
+
+class PairSelection(StrEnum):
+    """Which of the pairs within the outer range give rows."""
+
+    ALL_WITHIN_OUTER = "all_within_outer"
+    NEAREST_PER_LINK = "nearest_per_link"
+    SINGLE_NEAREST = "single_nearest"
+
+
+#: Rows that one pair gives at most.
+ROWS_PER_PAIR = {
+    RowForm.PAIR_NORMAL: 1,
+    RowForm.ARM_NORMAL: 2,
+    RowForm.PAIR_AXES: 3,
+    RowForm.ARM_AXES: 6,
+    RowForm.PAIR_COMPONENTS: 3,
+}
+
+
+class ControllerNumbers(NamedTuple):
+    """The settings as the kernels read them, choices by their :func:`..settings.code`."""
 
     feedback: float
     repetition: float
     avoid: bool
     form: int
+    rows_per_pair: int
     selection: int
     damper: int
     damper_gain: float
@@ -37,66 +69,50 @@ class Numbers(NamedTuple):
     limit_margin: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Settings:
+class ControllerSettings(Settings):
     """Settings of the velocity problem.
-
-    Attributes
-    ----------
-    feedback : float
-        K in J x = dr/dt + K (r - f(q)) [1/s].
-    repetition : float
-        Weight lambda of the pull to the start, objective 1/2 |x + lambda (q - q_0)|^2 [1/s].
-    avoid : bool
-        Whether pairs within ``outer`` give rows.
-    form, selection, damper : str
-        Of :data:`FORMS`, :data:`SELECTIONS`, :data:`DAMPERS`.
-    damper_gain : float
-        Slope k of the linear damper beta = k (d - inner) [1/s].
-    outer, inner : float
-        d1, where a pair becomes active, and d2, which is kept [m].
-    surface : bool
-        Distances between link surfaces, else between capsule axes.
-    limits, angle_limits : bool
-        Whether the joint speeds are bounded, and whether the bounds shrink towards angle limits.
-    limit_gain, limit_margin : float
-        x_i <= limit_gain (upper_i - limit_margin - q_i) [1/s], [rad].
 
     Raises
     ------
     InputError
         A gain, range or margin that is negative or not finite; outer not beyond inner.
     UnknownNameError
-        A name that is not in its list.
+        A choice that does not exist.
     """
 
-    feedback: float = 10.0
-    repetition: float = 0.0
-    avoid: bool = True
-    form: str = "pair_normal"
-    selection: str = "all_within_outer"
-    damper: str = "linear"
-    damper_gain: float = 5.0
-    outer: float = 0.10
-    inner: float = 0.03
-    surface: bool = True
-    limits: bool = True
-    angle_limits: bool = True
-    limit_gain: float = 5.0
-    limit_margin: float = 0.05
+    feedback: NotNegative = Field(default=10.0, description="K in J x = dr/dt + K (r - f(q)) [1/s]")
+    repetition: NotNegative = Field(
+        default=0.0,
+        description="lambda of the pull to the start, 1/2 |x + lambda (q - q_0)|^2 [1/s]",
+    )
+    avoid: bool = Field(default=True, description="pairs within the outer range give rows")
+    form: RowForm = RowForm.PAIR_NORMAL
+    selection: PairSelection = PairSelection.ALL_WITHIN_OUTER
+    damper: Damper = Damper.LINEAR
+    damper_gain: Positive = Field(
+        default=5.0, description="slope k of the linear damper beta = k (d - inner) [1/s]"
+    )
+    inner: NotNegative = Field(default=0.03, description="d2, which is kept [m]")
+    outer: Positive = Field(
+        default=0.10, validate_default=True, description="d1, where a pair becomes active [m]"
+    )
+    surface: bool = Field(
+        default=True, description="distances between link surfaces, else between capsule axes"
+    )
+    limits: bool = Field(default=True, description="joint speeds are bounded")
+    angle_limits: bool = Field(default=True, description="the bounds shrink towards angle limits")
+    limit_gain: Positive = Field(
+        default=5.0, description="k in x_i <= k (upper_i - limit_margin - q_i) [1/s]"
+    )
+    limit_margin: NotNegative = Field(default=0.05, description="[rad]")
 
-    def __post_init__(self) -> None:
-        for name in ("feedback", "repetition", "inner", "limit_margin"):
-            _require(name, getattr(self, name), 0.0, strict=False)
-        for name in ("damper_gain", "limit_gain", "outer"):
-            _require(name, getattr(self, name), 0.0, strict=True)
-        if not self.outer > self.inner:
-            raise InputError("Settings", "outer", self.outer, f"more than inner, {self.inner:g} m")
-        for name, known in (("form", FORMS), ("selection", SELECTIONS), ("damper", DAMPERS)):
-            if getattr(self, name) not in known:
-                raise UnknownNameError(
-                    "Settings", name, getattr(self, name), f"one of {', '.join(known)}"
-                )
+    @field_validator("outer")
+    @classmethod
+    def _beyond_inner(cls, outer: float, info: ValidationInfo) -> float:
+        inner = info.data.get("inner")
+        if inner is not None and not outer > inner:
+            raise ValueError(f"more than inner, {inner:g} m")
+        return outer
 
     @property
     def closing_speed(self) -> float:
@@ -106,33 +122,22 @@ class Settings:
         """
         return self.damper_gain * (self.outer - self.inner)
 
-    def numbers(self) -> Numbers:
+    def numbers(self) -> ControllerNumbers:
         """For the kernels."""
-        return Numbers(
-            float(self.feedback),
-            float(self.repetition),
-            bool(self.avoid),
-            FORMS.index(self.form),
-            SELECTIONS.index(self.selection),
-            DAMPERS.index(self.damper),
-            float(self.damper_gain),
-            float(self.outer),
-            float(self.inner),
-            1.0 if self.surface else 0.0,
-            bool(self.limits),
-            bool(self.angle_limits),
-            float(self.limit_gain),
-            float(self.limit_margin),
-        )
-
-
-def _require(name: str, value: float, least: float, *, strict: bool) -> None:
-    ok = (
-        isinstance(value, int | float)
-        and isfinite(value)
-        and (value > least or (not strict and value == least))
-    )
-    if not ok:
-        raise InputError(
-            "Settings", name, value, f"a number {'above' if strict else 'of at least'} {least:g}"
+        return ControllerNumbers(
+            feedback=self.feedback,
+            repetition=self.repetition,
+            avoid=self.avoid,
+            form=code(self.form),
+            rows_per_pair=ROWS_PER_PAIR[self.form],
+            selection=code(self.selection),
+            damper=code(self.damper),
+            damper_gain=self.damper_gain,
+            outer=self.outer,
+            inner=self.inner,
+            thickness=1.0 if self.surface else 0.0,
+            limits=self.limits,
+            angle_limits=self.angle_limits,
+            limit_gain=self.limit_gain,
+            limit_margin=self.limit_margin,
         )

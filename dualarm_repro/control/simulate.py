@@ -7,12 +7,13 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .circle import Circles
-from .closed_loop import DONE, REASONS, run_exact
+from .closed_loop import DONE, Ending, run_exact
 from .motion import Motion
-from .settings import ROWS, Numbers, Settings
+from .settings import ControllerNumbers, ControllerSettings
 from .system import ArmSystem
 
-_NO_NOISE = np.empty((0, 0))
+#: Noise and disturbance of a run without any.
+UNDISTURBED = np.empty((0, 0))
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
 
@@ -21,12 +22,12 @@ def simulate(
     system: ArmSystem,
     circles: Circles,
     q0: ArrayLike,
-    settings: Settings,
+    settings: ControllerSettings,
     *,
     dt: float = 1e-3,
     cycles: int = 1,
     slack: bool = False,
-    noise: np.ndarray = _NO_NOISE,
+    noise: np.ndarray = UNDISTURBED,
 ) -> Motion:
     """Follow the circles from ``q0`` with the exact minimiser of every step.
 
@@ -48,23 +49,27 @@ def simulate(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     weight = SLACK_WEIGHT if slack else 0.0
-    rows = ROWS[numbers.form]
     status, taken, q, x, error, distance, counts, given = run_exact(
-        system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise, rows
+        system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise
     )
     return truncated(status, taken, dt, q, x, error, distance, counts, given)
 
 
-def pseudo_inverse(settings: Settings) -> Settings:
+def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
     """The settings without inequalities: the minimiser is x = J^+ (dr/dt + K (r - f))."""
-    return Settings(
+    return ControllerSettings(
         feedback=settings.feedback, repetition=settings.repetition, avoid=False, limits=False
     )
 
 
 def checked_run(
-    system: ArmSystem, circles: Circles, q0: ArrayLike, settings: Settings, dt: float, cycles: int
-) -> tuple[np.ndarray, Numbers, int]:
+    system: ArmSystem,
+    circles: Circles,
+    q0: ArrayLike,
+    settings: ControllerSettings,
+    dt: float,
+    cycles: int,
+) -> tuple[np.ndarray, ControllerNumbers, int]:
     """Start, settings for the kernels and number of steps of a run."""
     if len(circles.centre) != len(system.arms):
         raise InputError(
@@ -78,9 +83,19 @@ def checked_run(
     return system.configuration(q0), settings.numbers(), steps
 
 
-def truncated(status: int, taken: int, dt: float, q, x, error, distance, rows, slack) -> Motion:
+def truncated(
+    status: int,
+    taken: int,
+    dt: float,
+    q: np.ndarray,
+    x: np.ndarray,
+    error: np.ndarray,
+    distance: np.ndarray,
+    rows: np.ndarray,
+    slack: np.ndarray,
+) -> Motion:
     """Motion of the steps that were taken."""
-    reason = None if status == DONE else f"{REASONS[status]} at t = {taken * dt:.3f} s"
+    reason = None if status == DONE else f"{list(Ending)[status]} at t = {taken * dt:.3f} s"
     k = taken + 1
     return Motion(
         dt,

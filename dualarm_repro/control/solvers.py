@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import daqp
 import numpy as np
@@ -11,25 +12,25 @@ import qpsolvers
 
 from ..errors import UnknownNameError
 from .least_distance import INFEASIBLE, SOLVED, least_distance
-from .problem import CERTIFIED, NoSolution, Problem, Solution
+from .problem import CERTIFIED, NoSolution, QuadraticProgram, Solution
 from .statement import solve_statement
 
-_NONE = 1e30  # a bound beyond this is none, for every back end
+_UNBOUNDED = 1e30  # a bound beyond this is none, for every back end
 
 
-def _active_set(problem: Problem) -> Solution:
-    status, *parts = least_distance(*problem.parts)
+def _active_set(problem: QuadraticProgram) -> Solution:
+    status, *parts = least_distance(problem.parts)
     if status != SOLVED:
         reason = "the constraints exclude each other" if status == INFEASIBLE else "iteration limit"
         raise NoSolution("active_set", problem, reason)
     return Solution(problem, *parts)
 
 
-def _daqp(problem: Problem) -> Solution:
+def _daqp(problem: QuadraticProgram) -> Solution:
     p, n, m = problem, problem.size, len(problem.b)
     rows = np.ascontiguousarray(np.vstack([p.A, p.G]))
-    upper = np.concatenate([p.upper.clip(max=_NONE), p.b, p.h])
-    lower = np.concatenate([p.lower.clip(min=-_NONE), p.b, np.full(len(p.h), -_NONE)])
+    upper = np.concatenate([p.upper.clip(max=_UNBOUNDED), p.b, p.h])
+    lower = np.concatenate([p.lower.clip(min=-_UNBOUNDED), p.b, np.full(len(p.h), -_UNBOUNDED)])
     sense = np.zeros(len(upper), dtype=np.int32)
     sense[n : n + m] = 5  # active and immutable: an equality
     x, _, flag, info = daqp.solve(np.eye(n), -p.target, rows, upper, lower, sense)
@@ -41,13 +42,13 @@ def _daqp(problem: Problem) -> Solution:
     )
 
 
-def _proxqp(problem: Problem) -> Solution:
+def _proxqp(problem: QuadraticProgram) -> Solution:
     p, n, m, k = problem, problem.size, len(problem.b), len(problem.h)
     qp = proxsuite.proxqp.dense.QP(n, m, k, True)
     qp.settings.eps_abs, qp.settings.eps_rel = 1e-9, 0.0
     qp.settings.eps_primal_inf = 1e-12  # the default 1e-4 calls feasible problems infeasible
-    lower, upper = p.lower.clip(min=-_NONE), p.upper.clip(max=_NONE)
-    qp.init(np.eye(n), -p.target, p.A, p.b, p.G, np.full(k, -_NONE), p.h, lower, upper)
+    lower, upper = p.lower.clip(min=-_UNBOUNDED), p.upper.clip(max=_UNBOUNDED)
+    qp.init(np.eye(n), -p.target, p.A, p.b, p.G, np.full(k, -_UNBOUNDED), p.h, lower, upper)
     qp.solve()
     if qp.results.info.status != proxsuite.proxqp.QPSolverOutput.PROXQP_SOLVED:
         raise NoSolution("proxqp", problem, str(qp.results.info.status))
@@ -55,13 +56,13 @@ def _proxqp(problem: Problem) -> Solution:
     return Solution(problem, qp.results.x, qp.results.y, z[:k], z[k:])
 
 
-def _through_qpsolvers(name: str, **settings: float) -> Callable[[Problem], Solution]:
-    def solve(problem: Problem) -> Solution:
+def _through_qpsolvers(name: str, **settings: Any) -> Callable[[QuadraticProgram], Solution]:
+    def solve(problem: QuadraticProgram) -> Solution:
         p = problem
         stated = qpsolvers.Problem(
             *(np.eye(p.size), -p.target, p.G if len(p.h) else None, p.h if len(p.h) else None),
             *(p.A if len(p.b) else None, p.b if len(p.b) else None),
-            *(p.lower.clip(min=-_NONE), p.upper.clip(max=_NONE)),
+            *(p.lower.clip(min=-_UNBOUNDED), p.upper.clip(max=_UNBOUNDED)),
         )
         try:
             found = qpsolvers.solve_problem(stated, solver=name, **settings)
@@ -70,13 +71,14 @@ def _through_qpsolvers(name: str, **settings: float) -> Callable[[Problem], Solu
         if not found.found or found.x is None:
             raise NoSolution(name, problem, "none found")
         y, z = (np.zeros(0) if part is None else part for part in (found.y, found.z))
-        return Solution(problem, found.x, y, z, found.z_box)
+        w = np.zeros(p.size) if found.z_box is None else found.z_box
+        return Solution(problem, found.x, y, z, w)
 
     return solve
 
 
 #: Solver name to the function and the largest residual its answers may have.
-SOLVERS: dict[str, tuple[Callable[[Problem], Solution], float]] = {
+SOLVERS: dict[str, tuple[Callable[[QuadraticProgram], Solution], float]] = {
     "active_set": (_active_set, CERTIFIED),
     "daqp": (_daqp, CERTIFIED),
     "quadprog": (_through_qpsolvers("quadprog"), CERTIFIED),
@@ -86,7 +88,7 @@ SOLVERS: dict[str, tuple[Callable[[Problem], Solution], float]] = {
 }
 
 
-def solve(problem: Problem, solver: str = "active_set") -> Solution:
+def solve(problem: QuadraticProgram, solver: str = "active_set") -> Solution:
     """Solve and certify a problem.
 
     Raises

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .problem import NoSolution, Problem, Solution
+from .problem import NoSolution, QuadraticProgram, Solution
 
-_NONE = 1e6  # [rad/s] stands for an absent bound: a parameter has to be finite
+_IN_PLACE_OF_INFINITY = 1e6  # [rad/s] stands for an absent bound: a parameter has to be finite
 
 
 @lru_cache(maxsize=8)
@@ -24,7 +24,15 @@ def statement(n: int, m: int, k: int) -> tuple[Any, dict[str, Any], Any, list[An
     import cvxpy as cp
 
     x = cp.Variable(n)
-    shapes = {"target": n, "A": (m, n), "b": m, "G": (k, n), "h": k, "lower": n, "upper": n}
+    shapes: dict[str, Any] = {
+        "target": n,
+        "A": (m, n),
+        "b": m,
+        "G": (k, n),
+        "h": k,
+        "lower": n,
+        "upper": n,
+    }
     p = {
         name: cp.Parameter(shape) for name, shape in shapes.items() if 0 not in np.atleast_1d(shape)
     }
@@ -37,14 +45,14 @@ def statement(n: int, m: int, k: int) -> tuple[Any, dict[str, Any], Any, list[An
     return cp.Problem(objective, constraints), p, x, constraints
 
 
-def solve_statement(problem: Problem) -> Solution:
+def solve_statement(problem: QuadraticProgram) -> Solution:
     """Solve through cvxpy with Clarabel, the readable reference."""
     import cvxpy as cp
 
     m, k = len(problem.b), len(problem.h)
     stated, parameters, x, (low, high, *rest) = statement(problem.size, m, k)
     for name, parameter in parameters.items():
-        parameter.value = getattr(problem, name).clip(-_NONE, _NONE)
+        parameter.value = getattr(problem, name).clip(-_IN_PLACE_OF_INFINITY, _IN_PLACE_OF_INFINITY)
     tolerance = {f"tol_{name}": 1e-11 for name in ("gap_abs", "gap_rel", "feas")}
     try:
         stated.solve(solver=cp.CLARABEL, **tolerance)

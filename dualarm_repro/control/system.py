@@ -16,7 +16,7 @@ from ..scene.posing import links_of
 from ..scene.scene import Scene
 
 
-class Arrays(NamedTuple):
+class SystemArrays(NamedTuple):
     """Constant data of A arms with n joints in all, C link capsules and P watched pairs.
 
     Attributes
@@ -86,7 +86,7 @@ class ArmSystem:
         return Scene(self.arms, exempt=self.exempt, self_collision=self.self_collision)
 
     @cached_property
-    def arrays(self) -> Arrays:
+    def arrays(self) -> SystemArrays:
         """What the kernels read."""
         arms = [placed.arm for placed in self.arms]
         start = np.cumsum([0, *(arm.nq for arm in arms)])
@@ -95,7 +95,7 @@ class ArmSystem:
         joint = np.concatenate([part.joint for part in links])
         # The rows of the links come first among the capsules of a scene, arm by arm.
         pairs = self.scene.pairs.rows["capsule"]
-        return Arrays(
+        return SystemArrays(
             np.concatenate([arm.chain.rotation for arm in arms]),
             np.concatenate([arm.chain.translation for arm in arms]),
             np.array([placed.placement.homogeneous[:3] for placed in self.arms]),

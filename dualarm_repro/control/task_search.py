@@ -10,7 +10,7 @@ import numpy as np
 from .joint_ranges import angle_excess
 from .motion import Motion
 from .random_tasks import WITHIN_REACH, CircleTask, admissible, draw_task, naive_motion
-from .settings import Settings
+from .settings import ControllerSettings
 from .simulate import simulate
 from .system import ArmSystem
 
@@ -26,8 +26,8 @@ class Wanted(NamedTuple):
     """What a search looks for, in words, as a property of the naive and of the avoiding motion."""
 
     words: str
-    naive: Callable[[ArmSystem, Motion, Settings], bool]
-    avoiding: Callable[[Motion, Settings], bool]
+    naive: Callable[[ArmSystem, Motion, ControllerSettings], bool]
+    avoiding: Callable[[Motion, ControllerSettings], bool]
 
 
 class FoundTask(NamedTuple):
@@ -38,7 +38,9 @@ class FoundTask(NamedTuple):
     among: int
 
 
-def score(system: ArmSystem, task: CircleTask, wanted: Wanted, settings: Settings) -> float | None:
+def score(
+    system: ArmSystem, task: CircleTask, wanted: Wanted, settings: ControllerSettings
+) -> float | None:
     """Peak acceleration of the avoiding motion [rad/s^2]; None if the task is not wanted."""
     if not wanted.naive(system, naive_motion(system, task, settings), settings):
         return None
@@ -52,7 +54,7 @@ def search_task(
     draws: int,
     seed: int,
     radii: tuple[float, float],
-    settings: Settings | None = None,
+    settings: ControllerSettings | None = None,
 ) -> FoundTask | None:
     """The wanted task of least peak acceleration, draw k from the stream [seed, k].
 
@@ -66,7 +68,7 @@ def search_task(
     FoundTask or None
         None if no draw is wanted.
     """
-    settings, found = settings or Settings(), []
+    settings, found = settings or ControllerSettings(), []
     for draw in range(draws):
         task = draw_task(system, np.random.default_rng([seed, draw]), radii)
         peak = score(system, task, wanted, settings)
@@ -78,20 +80,20 @@ def search_task(
     return FoundTask(task, draw, len(found))
 
 
-def _clean(motion: Motion, settings: Settings) -> bool:
+def _clean(motion: Motion, settings: ControllerSettings) -> bool:
     kept = motion.completed and motion.smallest_distance >= settings.inner - KEPT
     return kept and motion.largest_error <= TRACKED
 
 
-def _collides(system: ArmSystem, naive: Motion, settings: Settings) -> bool:
+def _collides(system: ArmSystem, naive: Motion, settings: ControllerSettings) -> bool:
     return admissible(naive, settings) and naive.smallest_distance <= DEEP
 
 
-def _leaves(system: ArmSystem, naive: Motion, settings: Settings) -> bool:
+def _leaves(system: ArmSystem, naive: Motion, settings: ControllerSettings) -> bool:
     return admissible(naive, settings) and angle_excess(system, naive.q) >= FAR
 
 
-def _inside(system: ArmSystem, naive: Motion, settings: Settings) -> bool:
+def _inside(system: ArmSystem, naive: Motion, settings: ControllerSettings) -> bool:
     return 0.0 < naive.distance[0] < 0.5 * settings.inner and naive.largest_error <= WITHIN_REACH
 
 

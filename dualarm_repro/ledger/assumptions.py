@@ -42,7 +42,7 @@ def alternatives(name: str, count: int) -> list[Any]:
     entry = REGISTRY.declared(name, "range", "choices")
     if entry.range is not None:
         return [float(value) for value in np.linspace(*entry.range, count)]
-    return list(entry.choices)
+    return list(entry.choices or ())
 
 
 class Chosen(Mapping[str, Any]):

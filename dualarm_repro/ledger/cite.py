@@ -59,7 +59,9 @@ def cite(registry: Registry, item_id: str, form: str, verdict: str) -> Any:
 class _Result:
     """One reproduced result, as a thing to cite."""
 
-    def __init__(self, item_id: str, item: Item, paper: str, verdict: str, made_by: Project):
+    def __init__(
+        self, item_id: str, item: Item, paper: str, verdict: str, made_by: Project
+    ) -> None:
         self.key = re.sub(r"\W+", "_", f"{made_by.name}_{item_id}")
         self.title = f"{item_id}: {item.title}"
         local = item_id.partition(".")[2]
@@ -68,7 +70,7 @@ class _Result:
 
     def bibtex(self) -> str:
         """BibTeX entry."""
-        fields = {
+        fields: dict[str, str | None] = {
             "title": self.title,
             "howpublished": f"{self.project.name}, version {self.project.version}",
             "year": self.project.year,
@@ -101,7 +103,7 @@ def bibtex(document: Document) -> str:
         venue or "howpublished": document.journal,
         "institution": document.affiliation,
         "year": document.year,
-        "language": _LANGUAGE.get(document.language, document.language),
+        "language": _LANGUAGE.get(document.language or "", document.language),
         "note": document.note,
     }
     return _entry(kind, document.id, document.authors, fields)
@@ -131,7 +133,7 @@ def _entry(kind: str, key: str, authors: Any, fields: dict[str, str | None]) -> 
     names = [_tex(name) if "," in name else f"{{{_tex(name)}}}" for name in authors]
     persons = {"author": [Person(name) for name in names]} if names else {}
     written = {name: _tex(value) for name, value in fields.items() if value}
-    return BibliographyData({key: Entry(kind, written, persons)}).to_string("bibtex")
+    return str(BibliographyData({key: Entry(kind, written, persons)}).to_string("bibtex"))
 
 
 def _tex(text: str) -> str:

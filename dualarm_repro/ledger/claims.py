@@ -51,7 +51,8 @@ def manifest(
         for name, (path, digest) in artifacts.items()
     ]
     content = {"artifacts": files, "claims": claims}
-    return _HEAD + yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=100)
+    text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=100)
+    return _HEAD + text
 
 
 def reference_manifest() -> str:

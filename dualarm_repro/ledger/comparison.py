@@ -44,7 +44,7 @@ class Comparison:
         if not (is_number(a) and is_number(b)):
             return False
         if self.bound is not None:
-            return max(abs(a), abs(b)) <= self.bound
+            return bool(max(abs(a), abs(b)) <= self.bound)
         return math.isclose(a, b, rel_tol=self.relative, abs_tol=self.absolute)
 
     @property

@@ -44,7 +44,7 @@ def citation_cff(project: Project, documents: Iterable[Document]) -> str:
         "keywords": list(project.keywords),
         "references": [_cff_reference(document) for document in documents],
     }
-    dump = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=100)
+    dump: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=100)
     return _HEAD + dump
 
 
@@ -98,7 +98,7 @@ def codemeta(project: Project, documents: Iterable[Document]) -> str:
 
 def schema_org(document: Document) -> dict[str, Any]:
     """A document in the vocabulary of schema.org, names in both scripts."""
-    originals = original_names(document) or [None] * len(document.authors)
+    originals = original_names(document) or [""] * len(document.authors)
     people = []
     for name, original in zip(document.authors, originals, strict=True):
         family, given = _parts(name)

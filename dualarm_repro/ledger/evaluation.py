@@ -10,7 +10,7 @@ from ..errors import LedgerError
 from ..tracking import recording
 from .registry import Checker, Registry
 from .result import Assumed, Proof, Result
-from .rules import Evidence
+from .rules import Evidence, Rule
 from .schema import Item
 from .verdict import Verdict, decide
 
@@ -36,6 +36,16 @@ class Evaluation:
             raise LedgerError(f"{self.item_id}: nothing obtained, {self.item.pending}")
         return evidence_of(self.item, self.result)
 
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """What judges the item; none for an item that is not attempted."""
+        return self.checker.rules if self.checker else ()
+
+    def verdict_on(self, evidence: Evidence) -> Verdict:
+        """The verdict if this had been found."""
+        change = self.checker.change if self.checker else None
+        return decide(self.rules, evidence, assumed=bool(self.item.assumptions), change=change)
+
     def checks(self) -> list[dict[str, Any]]:
         """Each rule with what it expected, what it found and whether it holds."""
         if self.checker is None:
@@ -50,7 +60,7 @@ class Evaluation:
                 "holds": rule.holds(evidence),
                 "outcome": str(rule.outcome(evidence)),
             }
-            for rule in self.checker.rules
+            for rule in self.rules
         ]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Any
@@ -49,6 +49,12 @@ def write_text(path: Path, text: str) -> Path:
 def to_json(value: Any, indent: int | None = 2) -> str:
     """JSON text; numpy values become numbers and lists, NaN and infinity become null."""
     return json.dumps(_plain(value), indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def through_json(value: Mapping[str, Any]) -> dict[str, Any]:
+    """A mapping as it comes back from its JSON text."""
+    found: dict[str, Any] = json.loads(to_json(dict(value)))
+    return found
 
 
 def _plain(value: Any) -> Any:

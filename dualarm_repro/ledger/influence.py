@@ -28,7 +28,7 @@ def first_order(values: Sequence[Any], met: Sequence[bool], seed: int) -> float 
     found = _explained(groups, outcome)
     if found <= np.quantile(chance, _LEVEL):
         return None
-    return float(max(0.0, found - np.mean(chance)))
+    return float(max(0.0, found - float(np.mean(chance))))
 
 
 def _groups(values: Sequence[Any]) -> np.ndarray:

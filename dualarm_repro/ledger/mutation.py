@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from .evaluation import Evaluation
 from .rules import Evidence, Role, Rule
-from .verdict import Verdict, decide
-
-
-def _verdict(evaluation: Evaluation, evidence: Evidence) -> str:
-    return decide(
-        evaluation.checker.rules,
-        evidence,
-        assumed=bool(evaluation.item.assumptions),
-        change=evaluation.checker.change,
-    )
+from .verdict import Verdict
 
 
 def insensitive(evaluation: Evaluation) -> list[str]:
@@ -23,7 +14,7 @@ def insensitive(evaluation: Evaluation) -> list[str]:
     rule that holds is broken or, where some fail, when all that fail are mended. A contradiction in
     print hides what else is judged, so the other rules are tried where it is broken.
     """
-    evidence, rules = evaluation.evidence, list(evaluation.checker.rules)
+    evidence, rules = evaluation.evidence, list(evaluation.rules)
     deaf = [r.label for r in rules if r.holds(r.flipped(evidence)) == r.holds(evidence)]
     if evaluation.verdict is not Verdict.INCONSISTENT:
         return deaf + _unmoved(evaluation, rules, evidence)
@@ -34,14 +25,14 @@ def insensitive(evaluation: Evaluation) -> list[str]:
 
 
 def _unmoved(evaluation: Evaluation, rules: list[Rule], evidence: Evidence) -> list[str]:
-    now = _verdict(evaluation, evidence)
+    now = evaluation.verdict_on(evidence)
     if failing := [rule for rule in rules if not rule.holds(evidence)]:
         mended = _flip_all(failing, evidence)
-        return [] if _verdict(evaluation, mended) != now else ["verdict"]
+        return [] if evaluation.verdict_on(mended) != now else ["verdict"]
     return [
         f"verdict on {rule.label}"
         for rule in rules
-        if _verdict(evaluation, rule.flipped(evidence)) == now
+        if evaluation.verdict_on(rule.flipped(evidence)) == now
     ]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -10,7 +9,7 @@ from ..sources import graph
 from ..tracking import note, recording
 from . import kept
 from .evaluation import Evaluation, evaluate, prove
-from .files import to_json
+from .files import through_json
 from .registry import Registry
 
 _KIND = "records"
@@ -42,7 +41,7 @@ def make(registry: Registry, item_id: str) -> tuple[dict[str, Any], Evaluation]:
     with recording() as inputs:
         evaluation = evaluate(registry, item_id)
         made = compose(registry, evaluation)
-    entry = json.loads(to_json({"record": made, "inputs": sorted(inputs)}))
+    entry = through_json({"record": made, "inputs": sorted(inputs)})
     kept.keep(registry, _KIND, item_id, entry, roots(registry, item_id), inputs)
     return entry, evaluation
 
@@ -74,7 +73,7 @@ def compose(
     from .settled import settle
 
     def by_record(item_id: str) -> str:
-        return record(registry, item_id)["verdict"]
+        return str(record(registry, item_id)["verdict"])
 
     item_id, result, checker = evaluation.item_id, evaluation.result, evaluation.checker
     item, paper = registry.item(item_id), registry.paper_of(item_id)

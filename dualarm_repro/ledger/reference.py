@@ -14,7 +14,7 @@ from ..errors import DataFileError
 from .comparison import Comparison, comparisons
 from .drift import differences
 from .evaluation import evaluate, prove
-from .files import to_json, write_text
+from .files import through_json, to_json, write_text
 from .registry import Registry
 from .settled import settle
 from .verdict import Verdict
@@ -70,7 +70,7 @@ def outcome(registry: Registry, item_id: str) -> dict[str, Any]:
         "obtained": evaluation.result.obtained if evaluation.result else None,
         "proofs": {key: proof.holds for key, proof in proofs.items() if proof},
     }
-    return json.loads(to_json(found))
+    return through_json(found)
 
 
 def declared(registry: Registry, item_id: str) -> list[Comparison]:

@@ -19,7 +19,7 @@ from ..errors import InputError
 from .comparison import Comparison, comparisons
 from .drift import differences
 from .evaluation import Evaluation, evaluate
-from .files import to_json
+from .files import through_json, to_json
 from .printed import replaced
 from .registry import Registry
 from .rules import Role
@@ -100,9 +100,9 @@ def judged(evaluation: Evaluation) -> dict[str, Any]:
     """What the rules look at, where they look, and the verdict."""
     evidence = evaluation.evidence
     found: dict[str, Any] = {"verdict": str(evaluation.verdict)}
-    for rule in evaluation.checker.rules:
+    for rule in evaluation.rules:
         found = replaced(found, tuple(rule.key.split(".")), rule.found(evidence))
-    return json.loads(to_json(found))
+    return through_json(found)
 
 
 def miss(evaluation: Evaluation) -> float:
@@ -111,7 +111,7 @@ def miss(evaluation: Evaluation) -> float:
     return max(
         (
             rule.miss(evidence)
-            for rule in evaluation.checker.rules
+            for rule in evaluation.rules
             if rule.role in (Role.SUPPORTS, Role.ADOPTS)
         ),
         default=0.0,
@@ -145,7 +145,8 @@ def _cell(
     item = registry.look(item_id)
     entries = {key: registry.paper_of(item_id).assumptions[key] for key in item.assumptions}
     at = partial(_outcome, registry, item_id)
-    declared = comparisons(item, registry.checker(item_id).rules)
+    checker = registry.checker(item_id)
+    declared = comparisons(item, checker.rules if checker else ())
     row: dict[str, Any] = dict.fromkeys(
         ("verdict", "met", "miss", "judged", "values", "error", "delicate", "moves", "change",
          "evaluations")
@@ -156,7 +157,7 @@ def _cell(
         found = at(values)
         delicate = _moved(found, at(_nudged(values, choice)), declared)
         return row | found | {"values": to_json(values, indent=None), "delicate": delicate}
-    if settings["kind"] == "search":
+    if settings["kind"] == "search" and item.search:
         return row | _climb(at, varied(entries), item.search.evaluations, rng)
     return row | _change(at, settings["assumption"], entries, declared, rng)
 
@@ -203,7 +204,7 @@ def _others(assumption: Assumption, now: Any) -> list[Any]:
     if assumption.range is not None:
         return [assumption.at(share) for share in (0.0, 1.0, 0.25, 0.75)]
     if assumption.choices is not None:
-        return [choice for choice in assumption.choices if choice != now]
+        return [choice for choice in assumption.choices or () if choice != now]
     probed = _probed(assumption.value)
     return [] if probed == assumption.value else [probed]
 
@@ -252,11 +253,11 @@ def _flip(
     """
 
     def kept(value: Any) -> bool:
-        return at({key: value})["verdict"] == nominal["verdict"]
+        return bool(at({key: value})["verdict"] == nominal["verdict"])
 
     found: list[tuple[float, Any]] = []
     if assumption.range is None:
-        others = [choice for choice in assumption.choices if choice != assumption.value]
+        others = [choice for choice in assumption.choices or () if choice != assumption.value]
         found = [(1.0, choice) for choice in others if not kept(choice)][:1]
     else:
         nominal_share = assumption.share_of(assumption.value)
@@ -292,7 +293,8 @@ def _climb(
 ) -> dict[str, Any]:
     """A random start, then changes of some assumptions that shrink as they stop to help."""
     shares = rng.random(len(choice))
-    names, width, best, count = list(choice), 0.5, None, 0
+    names, width, count = list(choice), 0.5, 0
+    best: dict[str, Any] | None = None
     while count < evaluations:
         trial = shares.copy()
         if best is not None:
@@ -301,14 +303,13 @@ def _climb(
             trial[moved] = np.mod(trial[moved] + width * rng.normal(size=moved.sum()), 1.0)
         values = {k: choice[k].at(min(u, 1.0 - 1e-12)) for k, u in zip(names, trial, strict=True)}
         found, count = at(values), count + 1
-        worse = best is not None and _order(found) > _order(best)
-        if worse:
+        if best is not None and _order(found) > _order(best):
             width = max(0.9 * width, 0.01)
-        else:
-            best, shares = found | {"values": to_json(values, indent=None)}, trial
+            continue
+        best, shares = found | {"values": to_json(values, indent=None)}, trial
         if best["met"]:
             break
-    return best | {"evaluations": count}
+    return (best or {}) | {"evaluations": count}
 
 
 def _order(found: Mapping[str, Any]) -> float:

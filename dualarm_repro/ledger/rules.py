@@ -206,8 +206,10 @@ class Residual(Bounded):
     Its digits are those of the errors, so `verify` compares it with the bound instead.
     """
 
+    high: float = 0.0
+
     def __post_init__(self) -> None:
-        if self.low is not None or self.high is None or not 0 < self.high < float("inf"):
+        if self.low is not None or not 0 < self.high < float("inf"):
             raise ValueError("a residual needs a positive bound `high` and no other")
 
     def holds(self, evidence: Evidence) -> bool:

@@ -97,10 +97,14 @@ class Assumption(StrictModel):
             if self.scale == "log":
                 return float(low * (high / low) ** share)
             return float(low + share * (high - low))
+        if self.choices is None:
+            raise ValueError("an assumption with a range or with choices")
         return self.choices[int(share * len(self.choices))]
 
     def share_of(self, value: float) -> float:
         """Where a value lies in the range, the inverse of :meth:`at`."""
+        if self.range is None:
+            raise ValueError("an assumption with a range")
         low, high = self.range
         if self.scale == "log":
             return log(value / low) / log(high / low)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..datafiles import opened
 from .evaluation import Evaluation
-from .files import to_json
+from .files import through_json
 from .influence import first_order
 from .registry import Registry
 from .robustness import NOT_COMPUTABLE, SEED, judged, miss, study_of, varied
@@ -108,7 +108,7 @@ def _over_choices(evaluation: Evaluation, table: pd.DataFrame | None) -> Settled
         "values": {},
         "judged": judged(evaluation),
     }
-    given = [dict(entry) for entry in result.witnesses]
+    given = [dict(entry) for entry in (result.witnesses if result else ())]
     if own is Verdict.UNDECIDABLE:
         return Settled(own, given)
     tried = [] if table is None else _tried(table)
@@ -192,19 +192,17 @@ def robustness(
         for key in varied(entries)
         if (index := first_order([row[key] for row in values], met, SEED)) is not None
     }
-    return json.loads(
-        to_json(
-            {
-                "holds": share.value,
-                "samples": len(draws),
-                "interval": [share.low, share.high],
-                "meets_print": {"share": meets.value, "interval": [meets.low, meets.high]},
-                "not_computable": int((draws["verdict"] == NOT_COMPUTABLE).sum()),
-                "varied": list(varied(entries)),
-                "flip": _smallest_flip(table, entries),
-                "influence": dict(sorted(influence.items(), key=lambda pair: -pair[1])),
-            }
-        )
+    return through_json(
+        {
+            "holds": share.value,
+            "samples": len(draws),
+            "interval": [share.low, share.high],
+            "meets_print": {"share": meets.value, "interval": [meets.low, meets.high]},
+            "not_computable": int((draws["verdict"] == NOT_COMPUTABLE).sum()),
+            "varied": list(varied(entries)),
+            "flip": _smallest_flip(table, entries),
+            "influence": dict(sorted(influence.items(), key=lambda pair: -pair[1])),
+        }
     )
 
 

@@ -24,7 +24,7 @@ from ..tracking import note, recording
 from .closure import closure, hash_file, hash_inputs
 from .comparison import Comparison
 from .drift import differences
-from .files import to_json, write, write_text
+from .files import through_json, to_json, write, write_text
 from .streams import stream
 from .workers import results
 
@@ -148,8 +148,9 @@ class Study:
         for k, (rows, inputs) in zip(missing, made, strict=True):
             kept[k] = {"rows": rows, "inputs": inputs}
             write_text(_chunk_path(folder, chunks[k]), to_json(kept[k], indent=None))
-        rows = [row for k in range(len(chunks)) for row in kept[k]["rows"]]
-        inputs = sorted({name for k in kept for name in kept[k]["inputs"]})
+        whole = [chunk for chunk in kept.values() if chunk is not None]
+        rows = [row for chunk in whole for row in chunk["rows"]]
+        inputs = sorted({name for chunk in whole for name in chunk["inputs"]})
         table = pd.DataFrame(
             [{**cell, **row} for cell, row in zip(_flat(cells), rows, strict=True)]
         )
@@ -266,12 +267,12 @@ class Study:
         keys = (rows[0].keys() | rows[1].keys()) - set(self.measured)
         found = []
         for key in sorted(key for key in keys if not key.startswith(absent or ("\0",))):
-            both = ({"obtained": {key: row.get(key)}} for row in rows)
-            found += differences(*both, self.compared)
+            before, now = ({"obtained": {key: row.get(key)}} for row in rows)
+            found += differences(before, now, self.compared)
         return found
 
     def _plain(self, row: Mapping[str, Any]) -> dict[str, Any]:
-        plain = json.loads(to_json(dict(row)))
+        plain = through_json(row)
         for key in self.nested:
             if isinstance(plain.get(key), str):
                 plain[key] = json.loads(plain[key])

@@ -61,4 +61,5 @@ def _required(name: str) -> tuple[str, ...]:
     except PackageNotFoundError:
         return ()
     plain = (line for line in lines if "extra ==" not in line)
-    return tuple(_NAME.match(line)[0].lower().replace("_", "-") for line in plain)
+    named = (match[0] for line in plain if (match := _NAME.match(line)))
+    return tuple(name.lower().replace("_", "-") for name in named)

@@ -180,10 +180,11 @@ def _move(staged: Path, root: Path) -> list[Path]:
             (staged / name).replace(root / name)
     except OSError:
         for name in moved:
-            if before[name] is None:
+            content = before[name]
+            if content is None:
                 (root / name).unlink(missing_ok=True)
             else:
-                (root / name).write_bytes(before[name])
+                (root / name).write_bytes(content)
         for folder in reversed(list(dict.fromkeys(folders))):
             if folder.is_dir():
                 folder.rmdir()

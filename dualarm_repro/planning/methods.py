@@ -9,11 +9,12 @@ from typing import Any
 
 from ..arms import Arm
 from ..errors import InputError, UnknownNameError
+from ..settings import Settings
 from .checks.link_clearance import require_links_clear
 from .defaults import default_settings, default_two_arm_settings
 from .master_slave import CoordinatedPlan, Task, plan_master_slave
 from .search.bidirectional_arms import TwoArmSettings, one_sided, plan_arms_bidirectional
-from .settings import APFSettings, PlannerSettings
+from .settings import APFSettings
 from .tasks.task_file import TaskSet, load_tasks
 
 
@@ -36,9 +37,9 @@ class Method:
 
     name: str
     description: str
-    settings: type[PlannerSettings]
-    default: Callable[[Arm], PlannerSettings]
-    adapted: Callable[[Any], PlannerSettings]
+    settings: type[Settings]
+    default: Callable[[Arm], Settings]
+    adapted: Callable[[Any], Settings]
     plan: Callable[[TaskSet, dict[str, Task]], CoordinatedPlan]
 
 

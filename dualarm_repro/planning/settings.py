@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from ..datafiles import from_validation
-from ..errors import InputError
+from ..settings import Positive, Settings
 
-Positive = Annotated[float, Field(gt=0)]
 Share = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
 Point = tuple[float, float, float]
@@ -51,30 +49,7 @@ class Switching(StrEnum):
 PointSet = Literal["end_effector", "frames_2_6", "frames_1_5", "five_links", "capsules"]
 
 
-def code(member: StrEnum) -> int:
-    """Number of a choice inside compiled code: its place among the choices."""
-    return list(type(member)).index(member)
-
-
-class PlannerSettings(BaseModel):
-    """Base: keyword arguments only, immutable; unknown fields and wrong values are input errors."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    def __init__(self, **values: Any) -> None:
-        try:
-            super().__init__(**values)
-        except ValidationError as error:
-            found = from_validation(type(self).__name__, error)
-            field = found.field if error.errors()[0]["loc"] else "combination of values"
-            raise InputError(found.source, field, found.value, found.expected) from None
-
-    def changed(self, **values: Any) -> Self:
-        """The same settings with some values changed, checked again."""
-        return type(self)(**{**dict(self), **values})
-
-
-class Attraction(PlannerSettings):
+class Attraction(Settings):
     """Settings of k/2 (w_x |X - X_g|^2 + w_q |q - q_g|^2)."""
 
     gain: Positive = Field(description="k")
@@ -90,7 +65,7 @@ class Attraction(PlannerSettings):
         return self
 
 
-class Repulsion(PlannerSettings):
+class Repulsion(Settings):
     """Settings of k/2 (1/d - 1/d_0)^2 for d < d_0, continued linearly below a contact distance."""
 
     gain: Positive = Field(description="k")
@@ -105,7 +80,7 @@ class Repulsion(PlannerSettings):
         return self
 
 
-class VirtualPoint(PlannerSettings):
+class VirtualPoint(Settings):
     """Settings of a virtual attraction point k/2 (|X - X_v|^2 + w |q - q_v|^2) and its switch."""
 
     gain: Positive = Field(description="k")
@@ -118,7 +93,7 @@ class VirtualPoint(PlannerSettings):
     max_activations: Count = Field(description="how often it is tried")
 
 
-class Update(PlannerSettings):
+class Update(Settings):
     """Settings of the joint step."""
 
     rule: UpdateRule
@@ -138,7 +113,7 @@ class Update(PlannerSettings):
         return self
 
 
-class Trap(PlannerSettings):
+class Trap(Settings):
     """Settings of trap detection.
 
     ``block_means``: the mean configurations of two consecutive blocks of ``steps`` steps differ by
@@ -154,7 +129,7 @@ class Trap(PlannerSettings):
     )
 
 
-class Termination(PlannerSettings):
+class Termination(Settings):
     """Settings of the end of a plan: all tolerances that are given must hold."""
 
     joint_tolerance: Positive | None = Field(default=None, description="max_j |q_j - q_gj| [rad]")
@@ -172,7 +147,7 @@ class Termination(PlannerSettings):
         return self
 
 
-class APFSettings(PlannerSettings):
+class APFSettings(Settings):
     """Everything that defines an artificial potential field planner.
 
     Control points are a named set or frame numbers: 1 ... nq of the joints, nq + 1 of the flange.

@@ -9,11 +9,13 @@ from .hull import ConvexHull, circle_points
 from .moving import JointPath, MovingArm, MovingShape, PosePath
 from .path import densify
 from .points import point_distances
-from .scene import Scene
+from .posing import Links, link_frames, links_of
+from .scene import FLOOR, Scene
 from .scene_file import load_scene
 from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, facing, window_frame
 
 __all__ = [
+    "FLOOR",
     "Box",
     "Bracket",
     "Capsule",
@@ -21,6 +23,7 @@ __all__ = [
     "ConvexHull",
     "HalfSpace",
     "JointPath",
+    "Links",
     "MovingArm",
     "MovingShape",
     "PlacedArm",
@@ -36,6 +39,8 @@ __all__ = [
     "densify",
     "distances",
     "facing",
+    "link_frames",
+    "links_of",
     "load_scene",
     "point_distances",
     "signed_distance",

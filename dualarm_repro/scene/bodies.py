@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -29,8 +29,19 @@ class PlacedArm:
     name: str
     arm: Arm
     placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
-    start: ArrayLike | None = None
-    goal: ArrayLike | None = None
+    start: np.ndarray | None = None
+    goal: np.ndarray | None = None
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(
+            self,
+            name: str,
+            arm: Arm,
+            placement: pin.SE3 = ...,
+            start: ArrayLike | None = None,
+            goal: ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         finite_pose(f"arm {self.name}", "placement", self.placement)
@@ -101,7 +112,7 @@ def collect(
     bodies: list[Body] = []
     data: dict[Sort, list] = {"capsule": [], "box": [], "plane": [], "hull": []}
 
-    def add(item: object, name: str, owner: str, sort: Sort, *rest: object) -> None:
+    def add(item: object, name: str, owner: str, sort: Sort, *rest: Any) -> None:
         bodies.append(Body(name, owner, sort, len(data[sort]), *rest))
         data[sort].append(item)
 

@@ -21,7 +21,7 @@ from .moving import JointPath, MovingArm
 from .posing import links_of
 from .quantities import positive
 from .scene import Scene
-from .shapes import Box, Shape
+from .shapes import Box, Capsule, Sphere
 
 
 class Bracket(NamedTuple):
@@ -128,12 +128,14 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
     """Bound on the way the bodies of each pair have moved relative to each other, t -> (N, P)."""
     lever = {placed.name: reach(placed.arm) for placed in scene.arms}
     for name, mover in scene.moving.items():
-        arm = isinstance(mover, MovingArm)
-        lever[name] = reach(mover.arm) if arm else np.array([[1.0, _extent(mover.shape)]])
+        if isinstance(mover, MovingArm):
+            lever[name] = reach(mover.arm)
+        else:
+            lever[name] = np.array([[1.0, _extent(mover.shape)]])
     rate = {name: np.zeros((len(scene.pairs), table.shape[1])) for name, table in lever.items()}
     for k, (a, b) in enumerate(scene.pairs.bodies):
         if a.owner == b.owner:
-            low, high = sorted((a, b), key=lambda body: body.joint)
+            low, high = sorted((a, b), key=lambda body: body.joint or 0)
             rate[a.owner][k, low.joint :] = lever[a.owner][high.link, low.joint :]
         else:
             for body in (a, b):
@@ -144,7 +146,7 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
     return lambda time: sum(path.travel(time) @ rate.T for path, rate in terms)
 
 
-def _extent(shape: Shape) -> float:
+def _extent(shape: Sphere | Capsule | Box | ConvexHull) -> float:
     """Distance of the farthest point of a shape's core from the origin of its frame."""
     match shape:
         case Box():

@@ -94,7 +94,8 @@ def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: 
     if count < 3:
         raise InputError("circle_points", "count", count, "at least 3")
     angle = 2 * np.pi * np.arange(count) / count
-    x = np.array([perpendicular(axis) for axis in np.asarray(axes, dtype=float)])
+    axes = np.asarray(axes, dtype=float)
+    x = np.array([perpendicular(axis) for axis in axes])
     y = np.cross(axes, x) / np.linalg.norm(axes, axis=1, keepdims=True)
     ring = np.cos(angle)[:, None] * x[:, None] + np.sin(angle)[:, None] * y[:, None]
     points = np.asarray(centers)[:, None] + np.asarray(radii)[:, None, None] * ring

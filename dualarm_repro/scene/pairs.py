@@ -81,8 +81,8 @@ def find_pairs(
             return False
         if a.owner != b.owner:
             return True
-        apart = abs(a.joint - b.joint) > 1 and not overlapping[a.owner][a.link, b.link]
-        return self_collision and apart
+        neighbours = a.joint is None or b.joint is None or abs(a.joint - b.joint) <= 1
+        return self_collision and not neighbours and not overlapping[a.owner][a.link, b.link]
 
     links = [body for body in bodies.all if body.joint is not None]
     pairs = [

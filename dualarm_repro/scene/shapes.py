@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import coal
 import numpy as np
@@ -18,8 +19,12 @@ from .quantities import array_of, positive, rotation3, unit3, vector3
 class Sphere:
     """|x - center| <= radius; center (3,) and radius in metres."""
 
-    center: ArrayLike
+    center: np.ndarray
     radius: float
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(self, center: ArrayLike, radius: float) -> None: ...
 
     def __post_init__(self) -> None:
         _set(self, center=vector3("Sphere", "center", self.center))
@@ -43,9 +48,13 @@ class Sphere:
 class Capsule:
     """Points within ``radius`` of the segment ``start`` to ``end`` [m], which may have length 0."""
 
-    start: ArrayLike
-    end: ArrayLike
+    start: np.ndarray
+    end: np.ndarray
     radius: float
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(self, start: ArrayLike, end: ArrayLike, radius: float) -> None: ...
 
     def __post_init__(self) -> None:
         _set(self, start=vector3("Capsule", "start", self.start))
@@ -75,9 +84,15 @@ class Capsule:
 class Box:
     """|R^T (x - center)|_i <= size_i / 2: edge lengths ``size`` (3,) [m], ``rotation`` R (3, 3)."""
 
-    center: ArrayLike
-    size: ArrayLike
-    rotation: ArrayLike = field(default_factory=lambda: np.eye(3))
+    center: np.ndarray
+    size: np.ndarray
+    rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(
+            self, center: ArrayLike, size: ArrayLike, rotation: ArrayLike = ...
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         size = vector3("Box", "size", self.size)
@@ -114,8 +129,12 @@ class HalfSpace:
     distance of the plane from the origin along it [m].
     """
 
-    normal: ArrayLike
+    normal: np.ndarray
     offset: float
+
+    if TYPE_CHECKING:  # anything that makes an array is taken
+
+        def __init__(self, normal: ArrayLike, offset: float) -> None: ...
 
     def __post_init__(self) -> None:
         _set(self, normal=unit3("HalfSpace", "normal", self.normal))

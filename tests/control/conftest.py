@@ -5,7 +5,7 @@ import pytest
 
 from dualarm_repro import load_arm
 from dualarm_repro.control.frozen import FrozenScenario, arm_pair
-from dualarm_repro.control.problem import Problem
+from dualarm_repro.control.problem import QuadraticProgram
 from dualarm_repro.control.scenario import load_scenario
 from dualarm_repro.datafiles import data_path
 
@@ -35,4 +35,4 @@ def random_problem(rng, equalities=6, rows=12, tight=0.5):
     A, G = rng.normal(size=(equalities, n)), rng.normal(size=(rows, n))
     loose = rng.random(rows) * (rng.random(rows) > tight)
     lower, upper = (x + side * rng.random(n) * (rng.random(n) > 0.2) for side in (-1, 1))
-    return Problem(0.1 * rng.normal(size=n), A, A @ x, G, G @ x + loose, lower, upper)
+    return QuadraticProgram(0.1 * rng.normal(size=n), A, A @ x, G, G @ x + loose, lower, upper)

@@ -6,7 +6,7 @@ import pytest
 from dualarm_repro.control.circle import Circles
 from dualarm_repro.control.controller import VelocityController
 from dualarm_repro.control.problem import NoSolution
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import pseudo_inverse, simulate
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import ConfigurationError, InputError, UnknownNameError
@@ -20,8 +20,8 @@ def run(scenario, settings, **options):
 
 
 def test_avoidance_keeps_the_inner_range_where_naive_motion_collides(crossing):
-    naive = run(crossing, pseudo_inverse(Settings()))
-    motion = run(crossing, Settings())
+    naive = run(crossing, pseudo_inverse(ControllerSettings()))
+    motion = run(crossing, ControllerSettings())
     assert naive.smallest_distance < -0.05
     assert motion.completed
     assert motion.smallest_distance >= 0.03 - 5e-4
@@ -29,7 +29,7 @@ def test_avoidance_keeps_the_inner_range_where_naive_motion_collides(crossing):
 
 
 def test_without_inequalities_the_minimiser_is_the_pseudo_inverse(crossing):
-    settings = pseudo_inverse(Settings())
+    settings = pseudo_inverse(ControllerSettings())
     controller = VelocityController(crossing.system, settings)
     position, velocity = crossing.circles.at(2.0)
     problem = controller.problem(crossing.q0, position, velocity)
@@ -38,13 +38,13 @@ def test_without_inequalities_the_minimiser_is_the_pseudo_inverse(crossing):
 
 
 def test_error_falls_with_the_step_and_the_feedback(crossing):
-    coarse, fine = (run(crossing, Settings(), dt=dt).largest_error for dt in (2e-3, 1e-3))
+    coarse, fine = (run(crossing, ControllerSettings(), dt=dt).largest_error for dt in (2e-3, 1e-3))
     assert fine == pytest.approx(coarse / 2, rel=0.1)
-    assert run(crossing, Settings(feedback=0.0)).largest_error > 10 * fine
+    assert run(crossing, ControllerSettings(feedback=0.0)).largest_error > 10 * fine
 
 
 def test_each_row_holds_along_the_motion(crossing):
-    motion = run(crossing, Settings(), dt=2e-3)
+    motion = run(crossing, ControllerSettings(), dt=2e-3)
     controller = VelocityController(crossing.system)
     for k in range(0, len(motion.x), 400):
         problem = controller.problem(motion.q[k], *crossing.circles.at(motion.time[k]))
@@ -54,7 +54,7 @@ def test_each_row_holds_along_the_motion(crossing):
 
 def test_inside_the_inner_range_the_arms_separate():
     scenario = frozen("too_close")
-    motion = run(scenario, Settings())
+    motion = run(scenario, ControllerSettings())
     assert 0 < motion.distance[0] < 0.015
     assert motion.completed
     assert motion.distance[-1] >= 0.03 - 5e-4
@@ -65,7 +65,10 @@ def test_inside_the_inner_range_the_arms_separate():
 def test_limits_hold_where_naive_motion_leaves_the_range():
     scenario = frozen("limits")
     arrays = scenario.system.arrays
-    naive, motion = run(scenario, pseudo_inverse(Settings())), run(scenario, Settings())
+    naive, motion = (
+        run(scenario, pseudo_inverse(ControllerSettings())),
+        run(scenario, ControllerSettings()),
+    )
     assert ((naive.q > arrays.upper) | (naive.q < arrays.lower)).any()
     assert motion.completed
     assert (motion.q <= arrays.upper).all()
@@ -74,8 +77,8 @@ def test_limits_hold_where_naive_motion_leaves_the_range():
 
 
 def test_repetition_ends_where_it_began(crossing):
-    free = run(crossing, Settings(), dt=5e-3, cycles=5).drift(10.0)
-    tied = run(crossing, Settings(repetition=2.0), dt=5e-3, cycles=5).drift(10.0)
+    free = run(crossing, ControllerSettings(), dt=5e-3, cycles=5).drift(10.0)
+    tied = run(crossing, ControllerSettings(repetition=2.0), dt=5e-3, cycles=5).drift(10.0)
     assert len(free) == len(tied) == 5
     assert tied.max() < 0.05 * free.max()
 
@@ -84,10 +87,12 @@ def test_unreachable_paths_stop_or_yield(crossing):
     tips = crossing.system.tips(crossing.q0)
     away = np.array([[0.0, 2.0, 0.0], [0.0, -2.0, 0.0]])
     far = Circles(tips + away, -away, np.roll(away, 1, axis=1), 10.0)
-    stopped = simulate(crossing.system, far, crossing.q0, Settings(), dt=5e-3)
+    stopped = simulate(crossing.system, far, crossing.q0, ControllerSettings(), dt=5e-3)
     assert not stopped.completed
     assert "no joint velocity satisfies all constraints at t =" in stopped.stopped
-    yielding = simulate(crossing.system, far, crossing.q0, Settings(), dt=5e-3, slack=True)
+    yielding = simulate(
+        crossing.system, far, crossing.q0, ControllerSettings(), dt=5e-3, slack=True
+    )
     assert yielding.completed
     assert yielding.slack.max() > 0.1
     assert yielding.smallest_distance > 0.0
@@ -145,7 +150,7 @@ def test_a_circle_may_last_less_than_a_second():
 def test_bad_runs_are_refused(crossing):
     for options in ({"dt": 0.0}, {"dt": np.nan}, {"dt": 20.0}, {"cycles": 0}):
         with pytest.raises(InputError, match="simulate"):
-            run(crossing, Settings(), **options)
+            run(crossing, ControllerSettings(), **options)
 
 
 def test_circle_velocity_is_the_derivative(crossing):

@@ -5,15 +5,16 @@ import pytest
 
 from dualarm_repro.control.contest import contest
 from dualarm_repro.control.neural.network_settings import NetworkSettings
+from dualarm_repro.control.parts import program_of
 from dualarm_repro.control.recorded import recorded_problems, stacked
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import solve
 
 
 @pytest.fixture(scope="module")
 def problems(crossing):
-    settings = Settings()
+    settings = ControllerSettings()
     motion = simulate(*crossing.parts, settings, dt=5e-3)
     made = recorded_problems(crossing.system, crossing.circles, motion, settings, 20)
     for k, problem in enumerate(made[::10]):
@@ -22,12 +23,11 @@ def problems(crossing):
 
 
 def test_stacking_keeps_every_row(problems):
-    *_, G, h, lower, _, rows = stacked(problems)
-    assert rows.max() > 0
+    stack = stacked(problems)
+    assert stack.rows.max() > 0
     for k, p in enumerate(problems):
-        np.testing.assert_array_equal(G[k, : rows[k]], p.G)
-        np.testing.assert_array_equal(h[k, : rows[k]], p.h)
-        np.testing.assert_array_equal(lower[k], p.lower)
+        for found, expected in zip(program_of(stack, k), p.parts, strict=True):
+            np.testing.assert_array_equal(found, expected)
 
 
 def test_contest_measures_errors_against_the_exact_method(problems):

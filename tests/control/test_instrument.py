@@ -36,7 +36,7 @@ def test_functions_count_as_declared():
 def test_the_twin_of_the_exact_method_gives_its_minimiser():
     p = random_problem(np.random.default_rng(0))
     np.testing.assert_array_equal(
-        Instrument().twin(least_distance)(*p.parts)[1], least_distance(*p.parts)[1]
+        Instrument().twin(least_distance)(p.parts)[1], least_distance(p.parts)[1]
     )
 
 
@@ -48,7 +48,7 @@ def test_the_twin_of_the_network_gives_its_rate(penalty):
     )
     size = p.size + len(p.b)
     found, expected = np.empty(size), np.empty(size)
-    arguments = (numbers, 1.0, np.zeros(size), *p.parts, np.zeros(size))
+    arguments = (numbers, 1.0, np.zeros(size), p.parts, np.zeros(size))
     Instrument().twin(network_rate)(*arguments, found)
     network_rate(*arguments, expected)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-15)
@@ -57,7 +57,7 @@ def test_the_twin_of_the_network_gives_its_rate(penalty):
 def test_what_is_changed_in_place_stays_in_place():
     p = random_problem(np.random.default_rng(0))
     states = np.zeros((2, p.size + len(p.b) + len(p.h)))
-    Instrument().twin(iterate)(*p.parts, states[0], 3, 0.0)
-    iterate(*p.parts, states[1], 3, 0.0)
+    Instrument().twin(iterate)(p.parts, states[0], 3, 0.0)
+    iterate(p.parts, states[1], 3, 0.0)
     assert np.abs(states[0]).max() > 0
     np.testing.assert_allclose(states[0], states[1], rtol=1e-12, atol=1e-15)

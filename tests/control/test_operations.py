@@ -12,7 +12,7 @@ from dualarm_repro.control.operations import (
     primal_dual_cost,
     pseudo_inverse_cost,
 )
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 
 from .conftest import random_problem
 
@@ -47,10 +47,10 @@ def test_an_iteration_is_cheaper_than_a_step_of_the_network(p):
 
 def test_a_whole_step_holds_more_than_its_solver(crossing):
     y = np.zeros(crossing.system.nq + 6)
-    exact = control_cost(*crossing.parts, Settings(), crossing.q0, 1.0).total()
-    blind = control_cost(*crossing.parts, Settings(avoid=False), crossing.q0, 1.0).total()
+    exact = control_cost(*crossing.parts, ControllerSettings(), crossing.q0, 1.0).total()
+    blind = control_cost(*crossing.parts, ControllerSettings(avoid=False), crossing.q0, 1.0).total()
     network = network_control_cost(
-        *crossing.parts, Settings(), NetworkSettings(), 1e-3, crossing.q0, 1.0, y
+        *crossing.parts, ControllerSettings(), NetworkSettings(), 1e-3, crossing.q0, 1.0, y
     ).total()
     assert exact >= blind > 1000
     assert network > 1000

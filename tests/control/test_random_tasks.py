@@ -11,7 +11,7 @@ from dualarm_repro.control.frozen import FrozenScenario
 from dualarm_repro.control.joint_ranges import angle_excess, random_configuration, speed_excess
 from dualarm_repro.control.random_tasks import CircleTask, admissible, draw_task, naive_motion
 from dualarm_repro.control.scenario import load_scenario
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.task_search import CROSSING, TO_LIMITS, TOO_CLOSE, score, search_task
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.errors import ConfigurationError, UnknownNameError
@@ -52,16 +52,16 @@ def test_drawn_tasks_are_of_the_stream_and_start_at_the_tips(system):
 
 
 def test_a_naive_motion_counts_if_it_follows_and_starts_apart(crossing):
-    task, settings = frozen_task("crossing_xarm7"), Settings()
+    task, settings = frozen_task("crossing_xarm7"), ControllerSettings()
     naive = naive_motion(crossing.system, task, settings)
     assert admissible(naive, settings)
-    assert not admissible(naive, replace(settings, outer=naive.distance[0] + 0.01))
+    assert not admissible(naive, settings.changed(outer=naive.distance[0] + 0.01))
     assert not admissible(replace(naive, error=naive.error + 2e-3), settings)
     assert not admissible(replace(naive, stopped="failed"), settings)
 
 
 def test_scores_are_those_of_the_wanted_task(crossing):
-    task, settings = frozen_task("crossing_xarm7"), Settings()
+    task, settings = frozen_task("crossing_xarm7"), ControllerSettings()
     assert score(crossing.system, task, CROSSING, settings) > 0.0
     assert score(crossing.system, task, TO_LIMITS, settings) is None
     assert score(crossing.system, task, TOO_CLOSE, settings) is None

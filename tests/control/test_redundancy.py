@@ -11,7 +11,7 @@ from dualarm_repro import load_arm
 from dualarm_repro.control.controller import VelocityController
 from dualarm_repro.control.mesh_containment import mesh_excess
 from dualarm_repro.control.redundancy import inertia_weighted, self_motion
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import pseudo_inverse
 
 XARM, PANDA = "xarm_description/urdf/xarm7.urdf", "panda_description/urdf/panda.urdf"
@@ -24,7 +24,7 @@ def test_self_motion_keeps_the_tips(system, q):
 
 
 def test_inertia_weighted_velocity_meets_the_task_with_the_least_kinetic_energy(system, q):
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     p = controller.problem(q, system.tips(q), np.array([[0.1, 0.0, 0.2], [0.0, -0.1, 0.1]]))
     x, least = inertia_weighted(system, q, p), np.linalg.pinv(p.A) @ p.b
     np.testing.assert_allclose(p.A @ x, p.b, atol=1e-12)

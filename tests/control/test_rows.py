@@ -5,67 +5,64 @@ import pytest
 
 from dualarm_repro.control.assembly import make_buffers, sense, state
 from dualarm_repro.control.damper import approach_bound
-from dualarm_repro.control.settings import DAMPERS, FORMS, ROWS, Settings
+from dualarm_repro.control.settings import ROWS_PER_PAIR, ControllerSettings, Damper, RowForm
 from dualarm_repro.errors import InputError, UnknownNameError
 from dualarm_repro.scene.clearance import distances
 from dualarm_repro.scene.gradients import clearance_gradient
+from dualarm_repro.settings import code
 
 STILL = np.zeros((2, 3))
 NO_NOISE = np.empty(0)
 
 
 def filled(system, q, **settings):
-    numbers = Settings(**settings).numbers()
-    buffers = make_buffers(system.arrays, ROWS[numbers.form])
+    numbers = ControllerSettings(**settings).numbers()
+    buffers = make_buffers(system.arrays, numbers)
     count = sense(system.arrays, numbers, q, NO_NOISE, buffers)
-    rows = state(system.arrays, numbers, q, q, STILL, STILL, count, buffers)
-    return buffers, count, rows
+    return buffers, count, state(system.arrays, numbers, q, q, STILL, STILL, count, buffers)
 
 
 def test_kinematics_equal_the_arms_and_the_scene(system, q):
-    buffers, count, rows = filled(system, q, outer=5.0)
+    buffers, count, program = filled(system, q, outer=5.0)
     scene, gradient = clearance_gradient(system.scene, q)
     np.testing.assert_allclose(buffers.surface, scene.distance, atol=1e-12)
-    np.testing.assert_allclose(-buffers.G[:rows], gradient, atol=1e-12)
+    np.testing.assert_allclose(-program.G, gradient, atol=1e-12)
     np.testing.assert_allclose(buffers.tips, system.tips(q), atol=1e-12)
     J = np.zeros((6, 14))
     for k, (placed, part) in enumerate(zip(system.arms, np.split(q, 2), strict=True)):
         J[3 * k : 3 * k + 3, 7 * k : 7 * k + 7] = (
             placed.placement.rotation @ placed.arm.jacobian(part)[:3]
         )
-    np.testing.assert_allclose(buffers.A, J, atol=1e-12)
-    assert count == rows == len(system.arrays.pairs)
+    np.testing.assert_allclose(program.A, J, atol=1e-12)
+    assert count == len(program.h) == len(system.arrays.pairs)
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_row_gradients_pass_finite_differences(system, seed):
     arrays = system.arrays
     q = np.random.default_rng(seed).uniform(0.4 * arrays.lower, 0.4 * arrays.upper)
-    buffers, _, rows = filled(system, q, outer=5.0)
+    _, _, program = filled(system, q, outer=5.0)
     step = 1e-6
     moved = q + step * np.vstack([np.eye(14), -np.eye(14)])
     d = distances(system.scene, moved)
     difference = (d[:14] - d[14:]).T / (2 * step)
-    assert np.abs(difference + buffers.G[:rows]).max() <= 1e-6
+    assert np.abs(difference + program.G).max() <= 1e-6
 
 
 def test_forms_are_related(system, q):
     near = {"outer": 0.6, "inner": 0.0}
-    normal = filled(system, q, **near)
-    G, h = normal[0].G[: normal[2]], normal[0].h[: normal[2]]
-    assert normal[2] > 3
-    parts = filled(system, q, form="pair_components", **near)
-    np.testing.assert_allclose(parts[0].G[: parts[2]].reshape(-1, 3, 14).sum(axis=1), G, atol=1e-12)
-    np.testing.assert_allclose(parts[0].h[: parts[2]].reshape(-1, 3).sum(axis=1), h, atol=1e-12)
-    alone = filled(system, q, form="arm_normal", **near)
+    buffers, count, normal = filled(system, q, **near)
+    assert len(normal.h) > 3
+    *_, parts = filled(system, q, form="pair_components", **near)
+    np.testing.assert_allclose(parts.G.reshape(-1, 3, 14).sum(axis=1), normal.G, atol=1e-12)
+    np.testing.assert_allclose(parts.h.reshape(-1, 3).sum(axis=1), normal.h, atol=1e-12)
+    *_, alone = filled(system, q, form="arm_normal", **near)
     # Both arms' rows of a pair add up to the relative one, unless one link stands still.
-    moving = [k for k in normal[0].chosen[: normal[1]] if _moves(system, k)]
-    both = [list(normal[0].chosen[: normal[1]]).index(k) for k in moving]
-    at = np.cumsum([0] + [2 if _moves(system, k) else 1 for k in normal[0].chosen[: normal[1]]])
-    for row in both:
-        np.testing.assert_allclose(
-            alone[0].G[at[row] : at[row] + 2].sum(axis=0), G[row], atol=1e-12
-        )
+    moving = [_moves(system, k) for k in buffers.chosen[:count]]
+    at = np.cumsum([0] + [2 if moves else 1 for moves in moving])
+    for row in np.flatnonzero(moving):
+        both = alone.G[at[row] : at[row] + 2].sum(axis=0)
+        np.testing.assert_allclose(both, normal.G[row], atol=1e-12)
 
 
 def test_selections_nest(system, q):
@@ -77,12 +74,12 @@ def test_selections_nest(system, q):
     assert len(chosen["single_nearest"]) == 1
 
 
-@pytest.mark.parametrize("law", range(len(DAMPERS)))
+@pytest.mark.parametrize("law", Damper)
 def test_dampers(law):
     d = np.linspace(-0.02, 0.0999, 300)
-    beta = np.array([approach_bound(law, v, 5.0, 0.1, 0.03) for v in d])
+    beta = np.array([approach_bound(code(law), v, 5.0, 0.1, 0.03) for v in d])
     assert (np.diff(beta) >= 0).all()
-    if DAMPERS[law] == "linear":
+    if law is Damper.LINEAR:
         np.testing.assert_allclose(beta, 5.0 * (d - 0.03), atol=1e-15)
     assert (beta[d < 0.03] <= 0).all()
 
@@ -92,17 +89,17 @@ def test_joint_bounds_brake_before_the_limit_and_drive_back_beyond(system, q):
     for i in (1, 3):
         near, beyond = q.copy(), q.copy()
         near[i], beyond[i] = arrays.upper[i] - 0.06, arrays.upper[i] + 0.02
-        buffers, *_ = filled(system, near)
-        assert buffers.upper[i] == pytest.approx(5.0 * 0.01)
-        buffers, *_ = filled(system, beyond)
-        assert buffers.upper[i] == pytest.approx(-5.0 * 0.07)
-        assert (buffers.lower <= buffers.upper).all()
+        *_, program = filled(system, near)
+        assert program.upper[i] == pytest.approx(5.0 * 0.01)
+        *_, program = filled(system, beyond)
+        assert program.upper[i] == pytest.approx(-5.0 * 0.07)
+        assert (program.lower <= program.upper).all()
         near[i], beyond[i] = arrays.lower[i] + 0.06, arrays.lower[i] - 0.02
-        buffers, *_ = filled(system, near)
-        assert buffers.lower[i] == pytest.approx(-5.0 * 0.01)
-        buffers, *_ = filled(system, beyond)
-        assert buffers.lower[i] == pytest.approx(5.0 * 0.07)
-        assert (buffers.lower <= buffers.upper).all()
+        *_, program = filled(system, near)
+        assert program.lower[i] == pytest.approx(-5.0 * 0.01)
+        *_, program = filled(system, beyond)
+        assert program.lower[i] == pytest.approx(5.0 * 0.07)
+        assert (program.lower <= program.upper).all()
 
 
 @pytest.mark.parametrize(
@@ -116,18 +113,20 @@ def test_joint_bounds_brake_before_the_limit_and_drive_back_beyond(system, q):
     ],
 )
 def test_bad_settings_are_refused(wrong):
-    with pytest.raises(InputError, match="Settings"):
-        Settings(**wrong)
+    with pytest.raises(InputError, match="ControllerSettings"):
+        ControllerSettings(**wrong)
 
 
 @pytest.mark.parametrize("name", ["form", "damper", "selection"])
 def test_unknown_names_are_refused(name):
-    with pytest.raises(UnknownNameError, match="one of"):
-        Settings(**{name: "other"})
+    with pytest.raises(UnknownNameError, match=f"{name} = 'other'"):
+        ControllerSettings(**{name: "other"})
 
 
-def test_forms_and_rows_go_together():
-    assert len(FORMS) == len(ROWS)
+@pytest.mark.parametrize("form", RowForm)
+def test_no_pair_gives_more_rows_than_its_form_says(system, q, form):
+    buffers, count, program = filled(system, q, form=form, outer=0.6, inner=0.0)
+    assert 0 < len(program.h) <= ROWS_PER_PAIR[form] * count <= len(buffers.program.h)
 
 
 def _moves(system, pair):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualarm_repro.control.certificate import residual
-from dualarm_repro.control.problem import NoSolution, Problem, Solution
+from dualarm_repro.control.problem import NoSolution, QuadraticProgram, Solution
 from dualarm_repro.control.relaxed import least_distance_with_slack
 from dualarm_repro.control.solvers import SOLVERS, solve
 from dualarm_repro.errors import InputError, UnknownNameError
@@ -55,15 +55,17 @@ def test_compiled_residual_equals_the_readable_one(seed):
     p = random_problem(rng)
     parts = [rng.normal(size=size) for size in (14, 6, 12, 14)]
     readable = Solution(p, *parts).residual
-    compiled = residual(*p.parts, *parts)
+    compiled = residual(p.parts, *parts)
     assert compiled == pytest.approx(readable, rel=1e-12)
 
 
 def test_dependent_equalities_are_accepted_and_contradictions_found():
     p = random_problem(np.random.default_rng(0), 3, 4)
-    twice = Problem(p.target, np.vstack([p.A, p.A]), np.r_[p.b, p.b], p.G, p.h, p.lower, p.upper)
+    twice = QuadraticProgram(
+        p.target, np.vstack([p.A, p.A]), np.r_[p.b, p.b], p.G, p.h, p.lower, p.upper
+    )
     np.testing.assert_allclose(solve(twice).x, solve(p).x, atol=1e-9)
-    against = Problem(
+    against = QuadraticProgram(
         p.target, np.vstack([p.A, p.A]), np.r_[p.b, p.b + 1], p.G, p.h, p.lower, p.upper
     )
     for solver in ("active_set", "daqp", "quadprog"):
@@ -75,7 +77,9 @@ def test_dependent_equalities_are_accepted_and_contradictions_found():
 def test_infeasible_inequalities_are_found():
     n = 3
     G = np.array([[1.0, 0, 0], [-1.0, 0, 0]])
-    problem = Problem(np.zeros(n), np.zeros((0, n)), [], G, [-1.0, -1.0], -np.ones(n), np.ones(n))
+    problem = QuadraticProgram(
+        np.zeros(n), np.zeros((0, n)), [], G, [-1.0, -1.0], -np.ones(n), np.ones(n)
+    )
     for solver in SOLVERS:
         with pytest.raises(NoSolution, match="problem"):
             solve(problem, solver)
@@ -92,14 +96,13 @@ def test_a_wrong_answer_is_not_certified():
 
 def test_slack_is_zero_in_the_limit_and_satisfies_the_inequalities_always():
     p = random_problem(np.random.default_rng(2), 6, 6, 0.0)
-    parts = p.parts
-    status, *found = least_distance_with_slack(*parts, 1e9)
+    status, *found = least_distance_with_slack(p.parts, 1e9)
     assert status == 0
     assert np.abs(found[-1]).max() < 1e-6
-    hard = Problem(p.target, p.A, p.b + 50.0, p.G, p.h, p.lower, p.upper)
+    hard = QuadraticProgram(p.target, p.A, p.b + 50.0, p.G, p.h, p.lower, p.upper)
     with pytest.raises(NoSolution):
         solve(hard)
-    status, *found = least_distance_with_slack(*parts[:2], hard.b, *parts[3:], 1e4)
+    status, *found = least_distance_with_slack(hard.parts, 1e4)
     solution = Solution(hard, *found)
     assert solution.certified()
     assert np.abs(solution.slack).max() > 1.0
@@ -118,7 +121,7 @@ def test_bad_problems_are_refused(field, value):
     p = random_problem(np.random.default_rng(3))
     fields = {name: getattr(p, name) for name in p.__dataclass_fields__}
     with pytest.raises(InputError, match=field):
-        Problem(**{**fields, field: value})
+        QuadraticProgram(**{**fields, field: value})
 
 
 def test_unknown_solver():

@@ -16,7 +16,7 @@ from dualarm_repro.planning import (
     Update,
     UpdateRule,
 )
-from dualarm_repro.planning.settings import code
+from dualarm_repro.settings import code
 
 TRAP = Trap(rule="block_means", steps=5, threshold=1e-3)
 

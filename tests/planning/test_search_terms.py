@@ -28,7 +28,7 @@ from dualarm_repro.planning.search.bidirectional_settings import (
     Threshold,
 )
 from dualarm_repro.planning.search.search_problem import search_problem
-from dualarm_repro.planning.settings import code
+from dualarm_repro.settings import code
 
 VECTOR = st.lists(st.floats(-2, 2), min_size=6, max_size=6).map(np.array)
 

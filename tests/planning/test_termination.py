@@ -5,7 +5,7 @@ import pytest
 
 from dualarm_repro.planning import StopReason, StuckRule
 from dualarm_repro.planning.descent.termination import is_stuck, within
-from dualarm_repro.planning.settings import code
+from dualarm_repro.settings import code
 
 BLOCKS, STALL = code(StuckRule.BLOCK_MEANS), code(StuckRule.POTENTIAL_STALL)
 

@@ -11,7 +11,7 @@ from dualarm_repro.planning.descent.virtual_point import (
     may_finish,
     switched,
 )
-from dualarm_repro.planning.settings import code
+from dualarm_repro.settings import code
 
 FAR, NEAR = 1.0, 0.05
 STUCK = [Switching.ON_WHEN_STUCK, Switching.REPLACES_GOAL]

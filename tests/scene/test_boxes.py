@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from examples import lengths, placements, points, thorough
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
@@ -12,6 +11,7 @@ from dualarm_repro.scene.boxes import (
     segment_box_distance,
     shortest_exit,
 )
+from examples import lengths, placements, points, thorough
 
 sizes = st.tuples(lengths, lengths, lengths)
 

@@ -1,7 +1,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import random_placement, seeds, thorough, two_arms
 from hypothesis import given, settings
 
 from dualarm_repro.arms import load_arm
@@ -23,6 +22,7 @@ from dualarm_repro.scene import (
 )
 from dualarm_repro.scene.certificate import reach
 from dualarm_repro.scene.posing import link_frames, links_of, place_cores
+from examples import random_placement, seeds, thorough, two_arms
 
 
 def check(scene, path, bracket, tolerance, index=None):

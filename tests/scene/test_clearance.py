@@ -1,7 +1,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import two_arms
 
 from dualarm_repro.scene import (
     Capsule,
@@ -14,6 +13,7 @@ from dualarm_repro.scene import (
     signed_distance,
 )
 from dualarm_repro.scene.placement import place
+from examples import two_arms
 
 
 def named(placed):

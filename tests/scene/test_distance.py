@@ -3,6 +3,18 @@ from itertools import product
 import numpy as np
 import pinocchio as pin
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dualarm_repro.errors import InputError
+from dualarm_repro.scene import (
+    Box,
+    Capsule,
+    ConvexHull,
+    HalfSpace,
+    Sphere,
+    signed_distance,
+)
 from examples import (
     capsules,
     half_spaces,
@@ -15,18 +27,6 @@ from examples import (
     round_shapes,
     shapes,
     thorough,
-)
-from hypothesis import given
-from hypothesis import strategies as st
-
-from dualarm_repro.errors import InputError
-from dualarm_repro.scene import (
-    Box,
-    Capsule,
-    ConvexHull,
-    HalfSpace,
-    Sphere,
-    signed_distance,
 )
 
 FIRST = {

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from examples import central_difference, two_arms
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.scene import (
@@ -11,6 +10,7 @@ from dualarm_repro.scene import (
     clearance_gradient,
     distances,
 )
+from examples import central_difference, two_arms
 
 
 @pytest.fixture(scope="module")

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from examples import placements, seeds, thorough
 from hypothesis import given
 
 from dualarm_repro.errors import InputError
 from dualarm_repro.scene import ConvexHull, Sphere, circle_points, point_distances, signed_distance
+from examples import placements, seeds, thorough
 
 CUBE = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 

@@ -1,12 +1,12 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import random_placement, seeds, thorough
 from hypothesis import given
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.scene import JointPath, MovingArm, PosePath
+from examples import random_placement, seeds, thorough
 
 
 def test_joint_path_is_linear_and_held_at_its_ends():

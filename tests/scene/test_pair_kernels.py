@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from examples import random_box
 
 from dualarm_repro.scene import Capsule, HalfSpace, signed_distance
 from dualarm_repro.scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
+from examples import random_box
 
 RNG_SEED = 0
 N, C = 20, 5

@@ -1,7 +1,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import two_arms
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import UnknownNameError
@@ -17,6 +16,7 @@ from dualarm_repro.scene import (
 )
 from dualarm_repro.scene.pairs import SORTS, always_overlapping
 from dualarm_repro.scene.posing import links_of
+from examples import two_arms
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
-from examples import seeds, thorough
 from hypothesis import given
 from hypothesis import strategies as st
 
 from dualarm_repro.errors import InputError
 from dualarm_repro.scene import densify
+from examples import seeds, thorough
 
 
 @given(seeds, st.floats(0.01, 2.0))

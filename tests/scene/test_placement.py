@@ -1,6 +1,5 @@
 import numpy as np
 import pinocchio as pin
-from examples import random_box, random_capsule, random_placement
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.scene import (
@@ -14,6 +13,7 @@ from dualarm_repro.scene import (
     distances,
 )
 from dualarm_repro.scene.placement import place
+from examples import random_box, random_capsule, random_placement
 
 
 def test_moving_shapes_are_where_their_path_has_them():

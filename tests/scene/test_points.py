@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from examples import judged, points, shapes, thorough
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,6 +14,7 @@ from dualarm_repro.scene import (
     signed_distance,
     window_frame,
 )
+from examples import judged, points, shapes, thorough
 
 WINDOW = window_frame((0.1, 0.2, 0.3), facing((1, 0.3, 0.2)), 0.9, 1.1, 0.1, 0.2)
 OBSTACLES = [

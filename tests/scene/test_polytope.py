@@ -1,12 +1,12 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import judged, points, random_capsule, random_placement, seeds, thorough
 from hypothesis import given
 
 from dualarm_repro.scene import Capsule, ConvexHull, signed_distance
 from dualarm_repro.scene.boxes import segment_box
 from dualarm_repro.scene.polytope import segment_polytope
+from examples import judged, points, random_capsule, random_placement, seeds, thorough
 
 CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 

@@ -1,10 +1,10 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import random_placement
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.scene.posing import link_frames, links_of, place_cores
+from examples import random_placement
 
 
 def cores_by_pinocchio(arm, base, q):

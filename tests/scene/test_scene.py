@@ -1,7 +1,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from examples import two_arms
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import ConfigurationError, InputError, UnknownNameError
@@ -17,6 +16,7 @@ from dualarm_repro.scene import (
     clearance,
     distances,
 )
+from examples import two_arms
 
 BALL = Sphere((0, 0, 2), 0.1)
 

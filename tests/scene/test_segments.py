@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from examples import points, thorough
 from hypothesis import given
 
 from dualarm_repro.scene.segments import (
@@ -8,6 +7,7 @@ from dualarm_repro.scene.segments import (
     segment_segment,
     segment_segment_reference,
 )
+from examples import points, thorough
 
 
 def call(function, a, b):

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from examples import placements, shapes, thorough
 from hypothesis import given
 
 from dualarm_repro.errors import InputError
@@ -13,6 +12,7 @@ from dualarm_repro.scene import (
     point_distances,
     window_frame,
 )
+from examples import placements, shapes, thorough
 
 SQUARE = (np.eye(3), 0.9, 1.1, 0.1, 0.2)
 

@@ -1,8 +1,8 @@
 import numpy as np
-from examples import placements, points, thorough
 from hypothesis import given
 
 from dualarm_repro.scene import vectors
+from examples import placements, points, thorough
 
 
 @given(points, points, placements)

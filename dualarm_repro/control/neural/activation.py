@@ -14,41 +14,57 @@ slope at zero counts: it multiplies the gain.
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import numpy as np
 
 from ...kernel import kernel
+from ...settings import code
 
-ACTIVATIONS = (
-    "linear", "power", "bipolar_sigmoid", "power_sigmoid", "tanh", "sinh", "sign_bi_power",
-)  # fmt: skip
-LINEAR, POWER, BIPOLAR_SIGMOID, POWER_SIGMOID, TANH, SINH, SIGN_BI_POWER = range(7)
+
+class Activation(StrEnum):
+    """The functions."""
+
+    LINEAR = "linear"
+    POWER = "power"
+    BIPOLAR_SIGMOID = "bipolar_sigmoid"
+    POWER_SIGMOID = "power_sigmoid"
+    TANH = "tanh"
+    SINH = "sinh"
+    SIGN_BI_POWER = "sign_bi_power"
+
+
+_LINEAR, _POWER = code(Activation.LINEAR), code(Activation.POWER)
+_BIPOLAR_SIGMOID = code(Activation.BIPOLAR_SIGMOID)
+_POWER_SIGMOID = code(Activation.POWER_SIGMOID)
+_TANH, _SINH = code(Activation.TANH), code(Activation.SINH)
 _SIGMOID, _STEEPNESS, _ROOT = 4.0, 3.0, 0.5
 _LARGEST = 50.0  # argument of sinh beyond which it would leave the useful range of floats
 
 #: Psi'(0): power starts flat, sign-bi-power infinitely steep.
 SLOPE_AT_ZERO = {
-    "linear": 1.0,
-    "power": 0.0,
-    "bipolar_sigmoid": 0.5 * _SIGMOID / np.tanh(0.5 * _SIGMOID),
-    "power_sigmoid": 0.5 * _SIGMOID / np.tanh(0.5 * _SIGMOID),
-    "tanh": _STEEPNESS,
-    "sinh": _STEEPNESS,
-    "sign_bi_power": np.inf,
+    Activation.LINEAR: 1.0,
+    Activation.POWER: 0.0,
+    Activation.BIPOLAR_SIGMOID: 0.5 * _SIGMOID / np.tanh(0.5 * _SIGMOID),
+    Activation.POWER_SIGMOID: 0.5 * _SIGMOID / np.tanh(0.5 * _SIGMOID),
+    Activation.TANH: _STEEPNESS,
+    Activation.SINH: _STEEPNESS,
+    Activation.SIGN_BI_POWER: np.inf,
 }
 
 
 @kernel
 def activation(kind, u):
     """Psi(u) of one entry."""
-    if kind == LINEAR:
+    if kind == _LINEAR:
         return u
-    if kind == POWER or (kind == POWER_SIGMOID and abs(u) >= 1.0):
+    if kind == _POWER or (kind == _POWER_SIGMOID and abs(u) >= 1.0):
         return u * u * u
-    if kind == BIPOLAR_SIGMOID or kind == POWER_SIGMOID:
+    if kind == _BIPOLAR_SIGMOID or kind == _POWER_SIGMOID:
         return np.tanh(0.5 * _SIGMOID * u) / np.tanh(0.5 * _SIGMOID)
-    if kind == TANH:
+    if kind == _TANH:
         return np.tanh(_STEEPNESS * u)
-    if kind == SINH:
+    if kind == _SINH:
         return np.sinh(min(max(_STEEPNESS * u, -_LARGEST), _LARGEST))
     size = abs(u)
     return 0.5 * np.sign(u) * (size**_ROOT + size ** (1.0 / _ROOT))

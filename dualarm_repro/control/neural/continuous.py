@@ -11,7 +11,7 @@ from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
 from ..closed_loop import observe
 from ..motion import Motion
-from ..settings import ROWS, Settings
+from ..settings import ControllerSettings
 from ..simulate import checked_run
 from ..system import ArmSystem
 from .network import state_rate
@@ -20,14 +20,14 @@ from .network_settings import NetworkSettings
 INTEGRATORS = {"bdf": "BDF", "radau": "Radau", "rk45": "RK45"}
 #: Tolerances and largest step [s] of related public code.
 RELATIVE, ABSOLUTE, LONGEST = 1e-6, 1e-8, 0.05
-_NO_NOISE = np.empty(0)
+_EXACT_READING = np.empty(0)
 
 
 def integrate_network(
     system: ArmSystem,
     circles: Circles,
     q0: ArrayLike,
-    settings: Settings,
+    settings: ControllerSettings,
     network: NetworkSettings,
     *,
     integrator: str = "bdf",
@@ -62,28 +62,14 @@ def integrate_network(
     q0, numbers, steps = checked_run(system, circles, q0, settings, sample, 1)
     arrays, circle, numbered = system.arrays, circles.numbers(), network.numbers()
     n, m = system.nq, 3 * len(system.arms)
-    buffers = make_buffers(arrays, ROWS[numbers.form])
+    buffers = make_buffers(arrays, numbers)
     undisturbed = np.zeros(n + m)
 
     def rate(t: float, z: np.ndarray) -> np.ndarray:
         dz = np.empty(n + n + m)
         q, y = z[:n].copy(), z[n:].copy()
-        state_rate(
-            *(
-                arrays,
-                numbers,
-                numbered,
-                circle,
-                q,
-                q0,
-                t,
-                y,
-                _NO_NOISE,
-                undisturbed,
-                buffers,
-                dz[n:],
-            )
-        )
+        moved = (q, q0, t, y, _EXACT_READING, undisturbed)
+        state_rate(arrays, numbers, numbered, circle, *moved, buffers, dz[n:])
         dz[:n] = y[:n]
         return dz
 
@@ -103,7 +89,7 @@ def integrate_network(
     error, distance, rows = np.empty((len(q), len(system.arms))), np.empty(len(q)), []
     position, velocity = np.empty((2, len(system.arms), 3))
     for k, t in enumerate(found.t):
-        rows.append(sense(arrays, numbers, np.ascontiguousarray(q[k]), _NO_NOISE, buffers))
+        rows.append(sense(arrays, numbers, np.ascontiguousarray(q[k]), _EXACT_READING, buffers))
         follow(circle, t, position, velocity)
         distance[k] = observe(buffers, position, error[k])
     stopped = None if found.success else f"{found.message} at t = {found.t[-1]:.3f} s"

@@ -10,8 +10,8 @@ from ..assembly import make_buffers
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, observe
 from ..motion import Motion
-from ..settings import ROWS, Settings
-from ..simulate import checked_run, truncated
+from ..settings import ControllerSettings
+from ..simulate import UNDISTURBED, checked_run, truncated
 from ..system import ArmSystem
 from .network import state_rate
 from .network_settings import NetworkSettings
@@ -21,9 +21,7 @@ FASTEST = 1e3
 
 
 @kernel
-def run_network(
-    arrays, numbers, network, circle, q0, y0, steps, dt, noise, disturbance, rows_per_pair
-):
+def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, noise, disturbance):
     """q += dt x, y += dt dy/dt.
 
     Parameters
@@ -40,7 +38,7 @@ def run_network(
     As :func:`..closed_loop.run_exact`, ``slack`` being zero.
     """
     n, arms = len(q0), len(arrays.base)
-    B = make_buffers(arrays, rows_per_pair)
+    B = make_buffers(arrays, numbers)
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
@@ -67,20 +65,17 @@ def run_network(
     return DONE, steps, q, x, error, distance, rows
 
 
-_NONE = np.empty((0, 0))
-
-
 def simulate_network(
     system: ArmSystem,
     circles: Circles,
     q0: ArrayLike,
-    settings: Settings,
+    settings: ControllerSettings,
     network: NetworkSettings,
     *,
     dt: float = 1e-3,
     cycles: int = 1,
-    noise: np.ndarray = _NONE,
-    disturbance: np.ndarray = _NONE,
+    noise: np.ndarray = UNDISTURBED,
+    disturbance: np.ndarray = UNDISTURBED,
     y0: np.ndarray | None = None,
 ) -> Motion:
     """Follow the circles with the network at a fixed rate; the state starts at zero unless given.
@@ -92,11 +87,11 @@ def simulate_network(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
-    status, taken, *samples = run_network(
+    status, taken, q, x, error, distance, rows = run_network(
         *(system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt),
-        *(noise, disturbance, ROWS[numbers.form]),
+        *(noise, disturbance),
     )
-    return truncated(status, taken, dt, *samples, np.zeros(steps))
+    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))
 
 
 def divergence_time(gamma: float, dt: float) -> float:

@@ -15,15 +15,18 @@ from __future__ import annotations
 import numpy as np
 
 from ...kernel import kernel
+from ...settings import code
 from ..assembly import sense, state
 from ..circle import follow
 from .activation import activation
+from .network_settings import FeedForward
 from .optimality import optimality, penalised_hessian
 from .saddle import solve_saddle
 
 #: Half step of the central difference [s].
 HALF_STEP = 1e-5
-ALL, WITHOUT_BARRIER_RATE, NONE = range(3)
+_WITHOUT_BARRIER_RATE = code(FeedForward.WITHOUT_BARRIER_RATE)
+_NONE_GIVEN = code(FeedForward.NONE)
 
 
 @kernel
@@ -33,14 +36,15 @@ def gain_at(network, t):
 
 
 @kernel
-def network_rate(network, gain, feed_forward, target, A, b, G, h, lower, upper, y, rate):
+def network_rate(network, gain, feed_forward, program, y, rate):
     """dy/dt (n + m,) of one problem; ``feed_forward`` (n + m,) is dF/dt at fixed y."""
-    optimality(network, target, A, b, G, h, lower, upper, y, rate)
+    optimality(network, program, y, rate)
     for i in range(len(rate)):
         rate[i] = -feed_forward[i] - gain * activation(network.activation, rate[i])
-    H = np.empty((len(target), len(target)))
-    penalised_hessian(network, target, G, h, lower, upper, y, H)
-    solve_saddle(H, A, rate)
+    n = len(program.target)
+    H = np.empty((n, n))
+    penalised_hessian(network, program, y, H)
+    solve_saddle(H, program.A, rate)
 
 
 @kernel
@@ -52,17 +56,17 @@ def problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, 
     n = len(q)
     position, velocity = np.empty((len(B.tips), 3)), np.empty((len(B.tips), 3))
     F = np.empty(len(y))
-    chosen, h = B.chosen[:count].copy(), B.h.copy()
+    chosen, h = B.chosen[:count].copy(), B.program.h.copy()
     for sign in (-1.0, 1.0):
         step = sign * HALF_STEP
         moved = q + step * y[:n]
         sense(arrays, numbers, moved, noise, B)
         B.chosen[:count] = chosen
         follow(circle, t + step, position, velocity)
-        k = state(arrays, numbers, moved, home, position, velocity, count, B)
-        if network.feed_forward == WITHOUT_BARRIER_RATE:
-            B.h[:k] = h[:k]
-        optimality(network, B.target, B.A, B.b, B.G[:k], B.h[:k], B.lower, B.upper, y, F)
+        program = state(arrays, numbers, moved, home, position, velocity, count, B)
+        if network.feed_forward == _WITHOUT_BARRIER_RATE:
+            program.h[:] = h[: len(program.h)]
+        optimality(network, program, y, F)
         drift += sign * F / (2.0 * HALF_STEP)
 
 
@@ -83,13 +87,11 @@ def state_rate(arrays, numbers, network, circle, q, home, t, y, noise, disturban
     position, velocity = np.empty((len(B.tips), 3)), np.empty((len(B.tips), 3))
     follow(circle, t, position, velocity)
     count = sense(arrays, numbers, q, noise, B)
-    if network.feed_forward != NONE:
+    if network.feed_forward != _NONE_GIVEN:
         state(arrays, numbers, q, home, position, velocity, count, B)
         problem_rate(arrays, numbers, network, circle, q, home, t, count, y, noise, B, drift)
         sense(arrays, numbers, q, noise, B)
-    rows = state(arrays, numbers, q, home, position, velocity, count, B)
+    program = state(arrays, numbers, q, home, position, velocity, count, B)
     drift -= disturbance
-    G, h = B.G[:rows], B.h[:rows]
-    gain = gain_at(network, t)
-    network_rate(network, gain, drift, B.target, B.A, B.b, G, h, B.lower, B.upper, y, rate)
-    return rows
+    network_rate(network, gain_at(network, t), drift, program, y, rate)
+    return len(program.h)

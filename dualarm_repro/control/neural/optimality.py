@@ -14,8 +14,9 @@ from .penalty import penalty
 
 
 @kernel
-def optimality(network, target, A, b, G, h, lower, upper, y, F):
+def optimality(network, program, y, F):
     """F(y) (n + m,)."""
+    target, A, b, G, h, lower, upper = program
     n, m = len(target), len(b)
     for i in range(n):
         F[i] = y[i] - target[i]
@@ -38,9 +39,10 @@ def optimality(network, target, A, b, G, h, lower, upper, y, F):
 
 
 @kernel
-def penalised_hessian(network, target, G, h, lower, upper, y, H):
+def penalised_hessian(network, program, y, H):
     """H = I + C^T P'' C (n, n), or the identity if the network does without."""
-    n = len(target)
+    _, _, _, G, h, lower, upper = program
+    n = len(lower)
     H[:] = 0.0
     for i in range(n):
         H[i, i] = 1.0

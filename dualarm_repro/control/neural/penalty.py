@@ -11,12 +11,26 @@ that softplus needs p above the largest multiplier, and the others miss by about
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import numpy as np
 
 from ...kernel import kernel
+from ...settings import code
 
-PENALTIES = ("quadratic", "softplus", "squared_softplus", "exponential")
-QUADRATIC, SOFTPLUS, SQUARED_SOFTPLUS, EXPONENTIAL = range(4)
+
+class Penalty(StrEnum):
+    """The forms."""
+
+    QUADRATIC = "quadratic"
+    SOFTPLUS = "softplus"
+    SQUARED_SOFTPLUS = "squared_softplus"
+    EXPONENTIAL = "exponential"
+
+
+_QUADRATIC = code(Penalty.QUADRATIC)
+_SOFTPLUS = code(Penalty.SOFTPLUS)
+_EXPONENTIAL = code(Penalty.EXPONENTIAL)
 _STEEPEST = 60.0  # exponent at which the exponential goes on as a parabola, lest it overflow
 
 
@@ -27,11 +41,11 @@ def penalty(kind, p, s, g):
     Beyond s g = 60 the exponential continues as its second-order expansion, so that a far state has
     a finite penalty and the problem stays convex.
     """
-    if kind == QUADRATIC:
+    if kind == _QUADRATIC:
         if g > 0.0:
             return 0.5 * p * g * g, p * g, p
         return 0.0, 0.0, 0.0
-    if kind == EXPONENTIAL:
+    if kind == _EXPONENTIAL:
         far = max(s * g - _STEEPEST, 0.0)
         value = p * np.exp(min(s * g, _STEEPEST))
         return value * (1.0 + far + 0.5 * far * far), value * s * (1.0 + far), value * s * s
@@ -40,6 +54,6 @@ def penalty(kind, p, s, g):
     soft = (max(t, 0.0) + np.log1p(decay)) / s
     share = (1.0 if t >= 0.0 else decay) / (1.0 + decay)
     bend = s * decay / ((1.0 + decay) * (1.0 + decay))
-    if kind == SOFTPLUS:
+    if kind == _SOFTPLUS:
         return p * soft, p * share, p * bend
     return 0.5 * p * soft * soft, p * soft * share, p * (share * share + soft * bend)

@@ -20,15 +20,16 @@ from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, observe
 from ..motion import Motion
-from ..settings import Settings
-from ..simulate import checked_run, truncated
+from ..settings import ControllerSettings, RowForm
+from ..simulate import UNDISTURBED, checked_run, truncated
 from ..system import ArmSystem
 from .fixed_step import FASTEST
 
 
 @kernel
-def projection_error(target, A, b, G, h, lower, upper, u, e):
+def projection_error(program, u, e):
     """e(u) (n + m + k,)."""
+    target, A, b, G, h, lower, upper = program
     n, m, k = len(target), len(b), len(h)
     for i in range(n):
         total = u[i] - target[i]
@@ -50,8 +51,9 @@ def projection_error(target, A, b, G, h, lower, upper, u, e):
 
 
 @kernel
-def direction(A, G, e, d):
+def direction(program, e, d):
     """d = (I + M^T) e."""
+    A, G = program.A, program.G
     n, m, k = A.shape[1], len(A), len(G)
     d[:] = e
     for i in range(n):
@@ -69,14 +71,14 @@ def direction(A, G, e, d):
 
 
 @kernel
-def iterate(target, A, b, G, h, lower, upper, u, iterations, tolerance):
+def iterate(program, u, iterations, tolerance):
     """Improve ``u`` in place; returns the iterations made until |e|_inf <= tolerance, or all."""
     e, d = np.empty(len(u)), np.empty(len(u))
     for made in range(iterations):
-        projection_error(target, A, b, G, h, lower, upper, u, e)
+        projection_error(program, u, e)
         if np.abs(e).max() <= tolerance:
             return made
-        direction(A, G, e, d)
+        direction(program, e, d)
         u -= ((e * e).sum() / (d * d).sum()) * d
     return iterations
 
@@ -90,7 +92,7 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
     """
     n, arms = len(q0), len(arrays.base)
     m = 3 * arms
-    B = make_buffers(arrays, 1)
+    B = make_buffers(arrays, numbers)
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
@@ -104,12 +106,13 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
         distance[step] = observe(B, position, error[step])
         if step == steps:
             break
-        k = state(arrays, numbers, q[step], q0, position, velocity, count, B)
+        program = state(arrays, numbers, q[step], q0, position, velocity, count, B)
+        k = len(program.h)
         u = np.empty(n + m + k)
         u[: n + m] = kept
         for j in range(k):
             u[n + m + j] = pair_kept[B.chosen[j]]
-        iterate(B.target, B.A, B.b, B.G[:k], B.h[:k], B.lower, B.upper, u, iterations, 0.0)
+        iterate(program, u, iterations, 0.0)
         if step < len(disturbance):
             u[: n + m] += dt * disturbance[step]
         kept[:] = u[: n + m]
@@ -124,19 +127,16 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
     return DONE, steps, q, x, error, distance, rows
 
 
-_NONE = np.empty((0, 0))
-
-
 def simulate_primal_dual(
     system: ArmSystem,
     circles: Circles,
     q0: ArrayLike,
-    settings: Settings,
+    settings: ControllerSettings,
     *,
     iterations: int = 100,
     dt: float = 1e-3,
-    noise: np.ndarray = _NONE,
-    disturbance: np.ndarray = _NONE,
+    noise: np.ndarray = UNDISTURBED,
+    disturbance: np.ndarray = UNDISTURBED,
 ) -> Motion:
     """Follow the circles with ``iterations`` steps of the primal-dual network per tick.
 
@@ -147,12 +147,11 @@ def simulate_primal_dual(
         iterations that are not positive.
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, 1)
-    if settings.form != "pair_normal":
+    if settings.form is not RowForm.PAIR_NORMAL:
         raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
     if iterations < 1:
         raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
-    run = run_primal_dual(
+    status, taken, q, x, error, distance, rows = run_primal_dual(
         *(system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt, noise, disturbance)
     )
-    status, taken, *samples = run
-    return truncated(status, taken, dt, *samples, np.zeros(steps))
+    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))

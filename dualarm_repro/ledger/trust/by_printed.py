@@ -16,7 +16,7 @@ from ..printed import at, leaves, replaced
 from ..registry import Registry
 from ..robustness import judged
 from ..rules import Outcome, Role, Rounds, Rule
-from ..verdict import Verdict, decide
+from ..verdict import Verdict
 from .counts import Tally
 from .nonsense import agreeing, cells, formulas, moved, nonsense, other_cell, other_digit
 
@@ -61,8 +61,7 @@ class _Reprint:
         if not self.reads:
             item = before.item.model_copy(update={"printed": value})
             kept = Evaluation(before.item_id, item, before.checker, before.result, before.verdict)
-            assumed, change = bool(item.assumptions), before.checker.change
-            found = decide(before.checker.rules, kept.evidence, assumed=assumed, change=change)
+            found = kept.verdict_on(kept.evidence)
             return Evaluation(before.item_id, item, before.checker, before.result, found)
         with self.registry.with_printed(before.item_id, value):
             return evaluate(self.registry, before.item_id)
@@ -96,19 +95,18 @@ def _noticed(reprint: _Reprint, value: Any) -> bool:
 
 def _outcomes(evaluation: Evaluation) -> list[str]:
     evidence = evaluation.evidence
-    found = [str(rule.outcome(evidence)) for rule in evaluation.checker.rules]
+    found = [str(rule.outcome(evidence)) for rule in evaluation.rules]
     return [str(evaluation.verdict), *found]
 
 
 def _wrong_digits(reprint: _Reprint, unable: list[str]) -> Iterator[tuple[str, bool]]:
     before = reprint.before
-    for rule in before.checker.rules:
-        to = getattr(rule, "to", None)
-        if to is None:
+    for rule in before.rules:
+        if (to := _place(rule)) is None:
             continue
         now, stem = rule.outcome(before.evidence), tuple(to.split("."))
         if now is not Outcome.HOLDS:
-            if (mended := _mended(rule, before)) is None:
+            if (mended := _mended(rule, to, before)) is None:
                 unable.append(f"{before.item_id}: no print agrees with {rule.label}")
             else:
                 value = replaced(before.item.printed, stem, mended)
@@ -143,9 +141,14 @@ def _other(rule: Rule, text: str) -> str | None:
     return moved(text, 3.0 * rule.tolerance)
 
 
-def _mended(rule: Rule, before: Evaluation) -> Any:
+def _place(rule: Rule) -> str | None:
+    """Where in print a rule looks, if it does."""
+    return getattr(rule, "to", None)
+
+
+def _mended(rule: Rule, to: str, before: Evaluation) -> Any:
     """What would have to be printed for a rule that fails to hold."""
-    found, mended = rule.found(before.evidence), at(before.item.printed, rule.to)
+    found, mended = rule.found(before.evidence), at(before.item.printed, to)
     if isinstance(found, np.ndarray | np.generic):
         found = found.tolist()
     values = dict(leaves(found))
@@ -160,11 +163,8 @@ def _unjudged(reprint: _Reprint) -> list[str]:
     """Printed numbers that no rule compares with and that the computation does not read."""
     if reprint.reads:
         return []
-    judged_paths = [
-        tuple(rule.to.split("."))
-        for rule in reprint.before.checker.rules
-        if getattr(rule, "to", None) is not None
-    ]
+    places = (_place(rule) for rule in reprint.before.rules)
+    judged_paths = [tuple(to.split(".")) for to in places if to is not None]
     found = []
     for path, text in leaves(reprint.before.item.printed):
         names = tuple(map(str, path))

@@ -144,6 +144,7 @@ def _other_number(value: Any) -> str | None:
     return repr(value * (2.0 if abs(value) >= _TOLERANCE else 1000.0))
 
 
-def _characters(lines: list[str], line: int, column: int) -> Place:
+def _characters(lines: list[str], line: int | None, column: int | None) -> Place:
     """A place in characters; a syntax tree counts bytes."""
+    line = line or 1  # only what was not parsed has no place
     return line, len(lines[line - 1].encode()[:column].decode())

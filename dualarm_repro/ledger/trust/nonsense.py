@@ -42,8 +42,8 @@ def nonsense(text: str) -> list[str]:
         found.append(f"{text[: match.start(1)]}{other}{text[match.end(1) :]}")
     if match := _POWER.search(text):
         found.append(f"{text[: match.start(1)]}{int(match[1]) + 1}{text[match.end(1) :]}")
-    if match := list(_EQUAL.finditer(text)):
-        found.append(f"{text[: match[-1].end()]} 2*{text[match[-1].end() :].lstrip()}")
+    if equal := list(_EQUAL.finditer(text)):
+        found.append(f"{text[: equal[-1].end()]} 2*{text[equal[-1].end() :].lstrip()}")
     return [one for one in found or [f"2*{text}"] if _says_something_else(text, one)]
 
 

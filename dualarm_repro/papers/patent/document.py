@@ -12,7 +12,7 @@ from ...control.frozen import FrozenScenario
 from ...control.link_capsules import with_capsules
 from ...control.motion import Motion
 from ...control.scenario import Scenario, load_scenario
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...control.simulate import simulate
 from ...datafiles import data_path
 from ...tracking import memo
@@ -83,7 +83,7 @@ def frozen(name: str, *, capsules: str = "widened", **changes: Any) -> FrozenSce
 
 
 def run(
-    scenario: FrozenScenario, settings: Settings, dt: float = CONTROL_STEP, **options: Any
+    scenario: FrozenScenario, settings: ControllerSettings, dt: float = CONTROL_STEP, **options: Any
 ) -> Motion:
     """The exact controller on a frozen scenario."""
     return simulate(*scenario.parts, settings, dt=dt, **options)

@@ -7,7 +7,7 @@ import numpy as np
 from ...control.neural.fixed_step import divergence_time, simulate_network
 from ...control.neural.network_settings import NetworkSettings
 from ...control.neural.penalised import rest_point
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from ...ledger import REGISTRY, Proof
 from .document import CONTROL_STEP, frozen, run
 from .pages.network.decay import GAINS
@@ -19,7 +19,7 @@ def state_in_right_side() -> Proof:
     """The network with and without the Hessian of the penalty in front of the state derivative."""
     scenario = frozen("crossing")
     with_hessian, without = (
-        simulate_network(*scenario.parts, Settings(), NetworkSettings(hessian=hessian))
+        simulate_network(*scenario.parts, ControllerSettings(), NetworkSettings(hessian=hessian))
         for hessian in (True, False)
     )
     return Proof(
@@ -37,8 +37,8 @@ def state_in_right_side() -> Proof:
 def initial_state() -> Proof:
     """A zero state where the path starts at full speed, against the exact controller."""
     scenario = frozen("crossing", law="constant_speed")
-    network = simulate_network(*scenario.parts, Settings(), NetworkSettings())
-    exact = run(scenario, Settings())
+    network = simulate_network(*scenario.parts, ControllerSettings(), NetworkSettings())
+    exact = run(scenario, ControllerSettings())
     return Proof(
         "started from a zero state on a path that begins at full speed the network is off the "
         "path by far more than the exact controller on the same path",
@@ -71,7 +71,7 @@ def unbounded_gain() -> Proof:
     found, predicted = [], [divergence_time(gamma, CONTROL_STEP) for gamma in GAINS]
     for gamma in GAINS:
         network = NetworkSettings(gamma=gamma, capped=False)
-        motion = simulate_network(*scenario.parts, Settings(), network)
+        motion = simulate_network(*scenario.parts, ControllerSettings(), network)
         found.append(float(motion.time[-1]) if not motion.completed else np.inf)
     late = np.subtract(found, predicted)
     return Proof(

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...control.frozen import FrozenScenario
 from ...control.neural.network_settings import NetworkSettings
-from ...control.settings import Settings
+from ...control.settings import ControllerSettings
 from .document import CROSSING, frozen
 
 #: Assumption to entry of a scenario.
@@ -70,13 +70,13 @@ def crossing(assumed: Mapping[str, Any], *names: str) -> FrozenScenario:
     return frozen(CROSSING[assumed["robot"]], **_fields(_SCENARIO, assumed, names))
 
 
-def controller_settings(assumed: Mapping[str, Any], *names: str) -> Settings:
-    """Settings of the controller from the named assumptions."""
-    return Settings(**_fields(_CONTROLLER, assumed, names))
+def controller_settings(assumed: Mapping[str, Any], *names: str) -> ControllerSettings:
+    """ControllerSettings of the controller from the named assumptions."""
+    return ControllerSettings(**_fields(_CONTROLLER, assumed, names))
 
 
 def network_settings(assumed: Mapping[str, Any], *names: str) -> NetworkSettings:
-    """Settings of the network from the named assumptions."""
+    """ControllerSettings of the network from the named assumptions."""
     return NetworkSettings(**_fields(_NETWORK, assumed, names))
 
 

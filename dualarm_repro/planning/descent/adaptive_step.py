@@ -10,8 +10,8 @@ alpha = alpha_0 s with s between ``floor`` and ``cap``, sum tau_i = 1:
 from __future__ import annotations
 
 from ...kernel import kernel
+from ...settings import code
 from ..search.bidirectional_settings import StepRule
-from ..settings import code
 
 _CONSTANT, _SATURATING, _PLAIN = map(
     code, (StepRule.CONSTANT, StepRule.SATURATING, StepRule.PLAIN_DISTANCE)

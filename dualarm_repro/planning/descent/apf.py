@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...scene.bodies import PlacedArm
+from ...settings import code
 from ..field.control_points import end_effector
 from ..field.obstacles import Obstacles
 from ..plan import Plan
-from ..settings import APFSettings, code
+from ..settings import APFSettings
 from .outcome import Record, finished
 from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within

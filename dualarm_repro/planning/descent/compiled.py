@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.vectors import dot, minus, vector
+from ...settings import code
 from ..field.field_kernels import evaluate, field_of, total_of, workspace
 from ..field.obstacles import Obstacles
 from ..plan import Plan
-from ..settings import APFSettings, code
+from ..settings import APFSettings
 from .outcome import Record, finished
 from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within

@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from ...errors import ConfigurationError, InputError
 from ...scene.bodies import PlacedArm
+from ...settings import code
 from ..field.control_points import ControlPoints, control_points, end_effector
 from ..field.obstacles import Obstacles
 from ..field.potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
-from ..settings import APFSettings, Attraction, Combination, Repulsion, code
+from ..settings import APFSettings, Attraction, Combination, Repulsion
 from .termination import largest_joint_error
 from .virtual_point import NO_POINT, Switch, SwitchRules, acting
 

@@ -7,7 +7,8 @@ from enum import StrEnum
 import numpy as np
 
 from ...kernel import kernel
-from ..settings import StuckRule, code
+from ...settings import code
+from ..settings import StuckRule
 
 _BLOCK_MEANS = code(StuckRule.BLOCK_MEANS)
 

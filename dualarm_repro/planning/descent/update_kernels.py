@@ -7,8 +7,9 @@ import numpy as np
 from ...arms.kernels import Chain
 from ...kernel import kernel
 from ...scene.posing import link_frames
+from ...settings import code
 from ..field.field_kernels import attractions, evaluate, flange, gradient, repulsion, total_of
-from ..settings import UpdateRule, code
+from ..settings import UpdateRule
 from .updates import CHANGES, ROUNDING, TIE
 
 _GRADIENT = code(UpdateRule.GRADIENT)

@@ -16,7 +16,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ...kernel import kernel
-from ..settings import Switching, code
+from ...settings import code
+from ..settings import Switching
 
 NO_POINT = -1
 _FROM_START = code(Switching.FROM_START)

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...kernel import kernel
+from ...settings import code
 from ..search.bidirectional_settings import Threshold
-from ..settings import code
 
 _NORM = code(Threshold.NORM)
 

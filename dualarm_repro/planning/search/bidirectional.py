@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...scene.bodies import PlacedArm
 from ...scene.posing import link_frames, place_cores
+from ...settings import code
 from ..descent.adaptive_step import step_length
 from ..descent.termination import StopReason
 from ..field.control_points import base_of
@@ -24,7 +25,7 @@ from ..field.joint_attraction import conic_force
 from ..field.obstacles import Obstacles
 from ..field.repulsive_force import inverse_distance_force, joint_torques
 from ..field.variable_gain import gain_factor, is_flip
-from ..settings import Combination, code
+from ..settings import Combination
 from .bidirectional_settings import BidirectionalSettings, UpdateOrder
 from .search_plan import SearchPlan, SearchRecord
 from .search_problem import SearchProblem, search_problem

@@ -17,6 +17,7 @@ from pydantic import Field
 from ...arms import Arm
 from ...errors import InputError
 from ...scene import JointPath, PlacedArm, Scene
+from ...settings import Positive
 from ..arm_path import ArmPath
 from ..descent.outcome import leaves_limits
 from ..descent.termination import StopReason
@@ -24,7 +25,7 @@ from ..field.control_points import control_points
 from ..field.hull_obstacle import JointCircles
 from ..field.obstacles import obstacles_of
 from ..master_slave import CoordinatedPlan, Task
-from ..settings import Count, Positive, Share
+from ..settings import Count, Share
 from .bidirectional_compiled import plan_bidirectional_compiled
 from .bidirectional_settings import BidirectionalSettings, StepRule
 from .failure import Failure, classify

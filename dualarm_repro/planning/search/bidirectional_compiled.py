@@ -14,6 +14,7 @@ from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
 from ...scene.posing import link_frames
 from ...scene.vectors import dot, minus, rotated, scaled, vector
+from ...settings import code
 from ..descent.adaptive_step import step_length
 from ..descent.termination import StopReason
 from ..field.control_points import base_of
@@ -22,7 +23,7 @@ from ..field.joint_attraction import set_conic_force
 from ..field.obstacles import Obstacles
 from ..field.repulsive_force import add_torque, inverse_distance_force
 from ..field.variable_gain import gain_factor, is_flip
-from ..settings import Combination, code
+from ..settings import Combination
 from .bidirectional_settings import BidirectionalSettings, UpdateOrder
 from .search_plan import SearchPlan, SearchRecord
 from .search_problem import SearchProblem, search_problem

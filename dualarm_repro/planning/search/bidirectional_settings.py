@@ -9,7 +9,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from ..settings import Combination, Count, PlannerSettings, PointSet, Positive, Share
+from ...settings import Positive, Settings
+from ..settings import Combination, Count, PointSet, Share
 
 Factor = Annotated[float, Field(gt=0, le=1)]
 
@@ -53,7 +54,7 @@ class UpdateOrder(StrEnum):
     AFTER = "after"
 
 
-class ConicAttraction(PlannerSettings):
+class ConicAttraction(Settings):
     """Settings of the attraction of the joints, see :mod:`.joint_attraction`."""
 
     gain: Positive = Field(description="zeta")
@@ -61,7 +62,7 @@ class ConicAttraction(PlannerSettings):
     measure: Threshold = Threshold.NORM
 
 
-class PointRepulsionSettings(PlannerSettings):
+class PointRepulsionSettings(Settings):
     """Settings of the repulsion of control points, see :mod:`.repulsive_force`."""
 
     gain: Positive = Field(description="eta_0")
@@ -70,7 +71,7 @@ class PointRepulsionSettings(PlannerSettings):
     contact: Positive = Field(default=1e-3, description="shorter distances count as this one [m]")
 
 
-class VariableGain(PlannerSettings):
+class VariableGain(Settings):
     """Settings of the factor lambda of the repulsive gain, see :mod:`.variable_gain`."""
 
     rule: GainRule = GainRule.CONSTANT
@@ -79,7 +80,7 @@ class VariableGain(PlannerSettings):
     flip: FlipRule = FlipRule.NEGATIVE
 
 
-class SearchStep(PlannerSettings):
+class SearchStep(Settings):
     """Settings of the step length, see :mod:`.adaptive_step`."""
 
     length: Positive = Field(description="alpha_0 [rad]")
@@ -97,7 +98,7 @@ class SearchStep(PlannerSettings):
         return self
 
 
-class Ending(PlannerSettings):
+class Ending(Settings):
     """Settings of the end of a search."""
 
     tolerance: Positive = Field(description="|q - q_goal| or gap of the halves [rad]")
@@ -106,7 +107,7 @@ class Ending(PlannerSettings):
     stuck_progress: Positive = Field(default=1e-3, description="what counts as progress [rad]")
 
 
-class BidirectionalSettings(PlannerSettings):
+class BidirectionalSettings(Settings):
     """Everything that defines a search; two-sided, variable gain and step are switched one by
     one.
     """

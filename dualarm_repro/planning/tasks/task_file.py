@@ -30,8 +30,9 @@ from ...datafiles import StrictModel, from_validation, read_yaml
 from ...errors import DataFileError, InputError
 from ...scene import PlacedArm, Scene, load_scene
 from ...scene.scene_file import Name, Number, Point, Radians
+from ...settings import Settings
 from ..master_slave import MasterPoints
-from ..settings import APFSettings, PlannerSettings, PointSet
+from ..settings import APFSettings, PointSet
 from .postures import Elbow, Tool, posture
 from .tip_goal import REACHED, tip_posture
 
@@ -123,13 +124,13 @@ class TaskSet:
 
     scene: Scene
     tasks: dict[str, ReadTask]
-    settings: PlannerSettings | None
+    settings: Settings | None
     leave_out: tuple[str, ...]
     master_points: MasterPoints
     radius: float | None
 
 
-def load_tasks(path: str | Path, kind: type[PlannerSettings] = APFSettings) -> TaskSet:
+def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet:
     """Read a task file, or a scene file whose arms have start and goal.
 
     Parameters
@@ -192,9 +193,7 @@ def _task(path: Path, scene: Scene, name: str, entry: TaskEntry) -> ReadTask:
     return ReadTask(**ends, residual=missed)
 
 
-def _settings(
-    path: Path, kind: type[PlannerSettings], values: dict[str, Any] | None
-) -> PlannerSettings | None:
+def _settings(path: Path, kind: type[Settings], values: dict[str, Any] | None) -> Settings | None:
     try:
         return None if values is None else kind(**values)
     except InputError as error:

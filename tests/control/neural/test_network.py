@@ -10,7 +10,7 @@ from dualarm_repro.control.neural.network import network_rate, problem_rate
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.optimality import optimality
 from dualarm_repro.control.neural.primal_dual import simulate_primal_dual
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import InputError, UnknownNameError
@@ -25,7 +25,7 @@ def test_one_step_with_unit_gain_is_one_newton_step():
     rng = np.random.default_rng(0)
     p, y, rate = random_problem(rng), rng.normal(size=20), np.empty(20)
     settings = NetworkSettings(penalty="softplus", factor=2.0, sharpness=3.0)
-    network_rate(settings.numbers(), 1000.0, np.zeros(20), *p.parts, y, rate)
+    network_rate(settings.numbers(), 1000.0, np.zeros(20), p.parts, y, rate)
     F, M = readable_optimality(p, settings, y)
     np.testing.assert_allclose(y + 1e-3 * rate, y - np.linalg.solve(M, F), atol=1e-9)
 
@@ -37,9 +37,9 @@ def test_the_flow_ends_near_the_exact_minimiser():
         settings = NetworkSettings(penalty="quadratic", factor=factor)
         y, rate, F = np.zeros(18), np.empty(18), np.empty(18)
         for _ in range(400):  # Euler steps of the flow; full Newton steps can cycle on the kinks
-            network_rate(settings.numbers(), 1.0, np.zeros(18), *p.parts, y, rate)
+            network_rate(settings.numbers(), 1.0, np.zeros(18), p.parts, y, rate)
             y += 0.1 * rate
-        optimality(settings.numbers(), *p.parts, y, F)
+        optimality(settings.numbers(), p.parts, y, F)
         assert np.abs(F).max() < 1e-8
         errors.append(np.abs(y[:14] - exact.x).max())
     # The bias of the quadratic penalty is the multiplier over the factor.
@@ -48,48 +48,34 @@ def test_the_flow_ends_near_the_exact_minimiser():
 
 
 def test_problem_rate_is_the_derivative_along_the_motion(crossing):
-    arrays, numbers = crossing.system.arrays, Settings(outer=0.3).numbers()
+    arrays, numbers = crossing.system.arrays, ControllerSettings(outer=0.3).numbers()
     network, circle = (
         NetworkSettings(penalty="softplus", factor=1.0, sharpness=2.0),
         crossing.circles,
     )
     y = 0.3 * np.random.default_rng(0).normal(size=20)
-    buffers, drift = make_buffers(arrays, 1), np.zeros(20)
+    buffers, drift = make_buffers(arrays, numbers), np.zeros(20)
     q0, t = crossing.q0, 3.0
 
     def F(s):
         """F at fixed y, moved along by s."""
         q = q0 + s * y[:14]
         count = sense(arrays, numbers, q, NO_NOISE, buffers)
-        rows = state(arrays, numbers, q, q0, *circle.at(t + s), count, buffers)
-        B, out = buffers, np.empty(20)
-        optimality(
-            network.numbers(), B.target, B.A, B.b, B.G[:rows], B.h[:rows], B.lower, B.upper, y, out
-        )
+        program = state(arrays, numbers, q, q0, *circle.at(t + s), count, buffers)
+        out = np.empty(20)
+        optimality(network.numbers(), program, y, out)
         return out, count
 
     _, count = F(0.0)
     assert count > 0
-    problem_rate(
-        arrays,
-        numbers,
-        network.numbers(),
-        circle.numbers(),
-        q0,
-        q0,
-        t,
-        count,
-        y,
-        NO_NOISE,
-        buffers,
-        drift,
-    )
+    given = (arrays, numbers, network.numbers(), circle.numbers(), q0, q0, t, count, y, NO_NOISE)
+    problem_rate(*given, buffers, drift)
     step = 1e-4
     np.testing.assert_allclose(drift, (F(step)[0] - F(-step)[0]) / (2 * step), atol=1e-5)
 
 
 def test_capped_network_follows_the_exact_controller(crossing):
-    q0, circles, settings = crossing.q0, crossing.circles, Settings()
+    q0, circles, settings = crossing.q0, crossing.circles, ControllerSettings()
     exact = simulate(crossing.system, circles, q0, settings)
     motion = simulate_network(crossing.system, circles, q0, settings, NetworkSettings())
     assert motion.completed
@@ -104,7 +90,7 @@ def test_growing_gain_diverges_when_predicted(crossing, gamma):
         crossing.system,
         crossing.circles,
         crossing.q0,
-        Settings(),
+        ControllerSettings(),
         NetworkSettings(gamma=gamma, capped=False),
     )
     assert "diverged" in motion.stopped
@@ -113,7 +99,11 @@ def test_growing_gain_diverges_when_predicted(crossing, gamma):
 
 def test_without_the_hessian_the_network_diverges(crossing):
     motion = simulate_network(
-        crossing.system, crossing.circles, crossing.q0, Settings(), NetworkSettings(hessian=False)
+        crossing.system,
+        crossing.circles,
+        crossing.q0,
+        ControllerSettings(),
+        NetworkSettings(hessian=False),
     )
     assert not motion.completed
 
@@ -124,7 +114,7 @@ def test_stiff_integration_needs_no_cap(crossing, integrator):
         crossing.system,
         crossing.circles,
         crossing.q0,
-        Settings(),
+        ControllerSettings(),
         NetworkSettings(),
         integrator=integrator,
     )
@@ -140,14 +130,14 @@ def test_unknown_integrator(crossing):
             crossing.system,
             crossing.circles,
             crossing.q0,
-            Settings(),
+            ControllerSettings(),
             NetworkSettings(),
             integrator="lsoda",
         )
 
 
 def test_primal_dual_improves_with_iterations(crossing):
-    q0, circles, settings = crossing.q0, crossing.circles, Settings()
+    q0, circles, settings = crossing.q0, crossing.circles, ControllerSettings()
     few, many = (
         simulate_primal_dual(crossing.system, circles, q0, settings, iterations=count)
         for count in (2, 60)
@@ -157,4 +147,4 @@ def test_primal_dual_improves_with_iterations(crossing):
     with pytest.raises(InputError, match="iterations"):
         simulate_primal_dual(crossing.system, circles, q0, settings, iterations=0)
     with pytest.raises(InputError, match="form"):
-        simulate_primal_dual(crossing.system, circles, q0, Settings(form="arm_axes"))
+        simulate_primal_dual(crossing.system, circles, q0, ControllerSettings(form="arm_axes"))

@@ -5,25 +5,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualarm_repro.control.neural.activation import ACTIVATIONS, SLOPE_AT_ZERO, activation
+from dualarm_repro.control.neural.activation import SLOPE_AT_ZERO, Activation, activation
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.optimality import optimality, penalised_hessian
-from dualarm_repro.control.neural.penalty import PENALTIES, penalty
+from dualarm_repro.control.neural.penalty import Penalty, penalty
 from dualarm_repro.control.neural.primal_dual import direction, iterate, projection_error
 from dualarm_repro.control.neural.saddle import solve_saddle
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import InputError, UnknownNameError
+from dualarm_repro.settings import code
 
 from ..conftest import random_problem
 
-KINDS = range(len(PENALTIES))
+KINDS = range(len(Penalty))
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @given(g=st.floats(-0.3, 0.3), s=st.sampled_from([1.0, 10.0, 100.0]))
 def test_penalty_derivatives_pass_finite_differences(kind, g, s):
     step = 1e-5 / s
-    if PENALTIES[kind] == "quadratic" and abs(g) < step:
+    if list(Penalty)[kind] is Penalty.QUADRATIC and abs(g) < step:
         g = 2 * step
     value, first, second = penalty(kind, 3.0, s, g)
     after, before = (penalty(kind, 3.0, s, g + side * step) for side in (1, -1))
@@ -48,13 +49,13 @@ def test_softplus_forms_tend_to_the_sharp_ones():
     np.testing.assert_allclose(squared, 2.0 * g.clip(min=0), atol=2e-5)
 
 
-@pytest.mark.parametrize("kind", range(len(ACTIVATIONS)))
+@pytest.mark.parametrize("kind", range(len(Activation)))
 def test_activations_are_odd_increasing_and_have_the_named_slope(kind):
     u = np.linspace(-1.5, 1.5, 301)
     psi = np.array([activation(kind, v) for v in u])
     np.testing.assert_allclose(psi, -psi[::-1], atol=1e-12)
     assert (np.diff(psi) >= 0).all()
-    slope = SLOPE_AT_ZERO[ACTIVATIONS[kind]]
+    slope = SLOPE_AT_ZERO[list(Activation)[kind]]
     measured = activation(kind, 1e-9) / 1e-9
     if np.isinf(slope):
         assert measured > 1e3
@@ -77,14 +78,14 @@ def readable_optimality(p, settings, y):
     n = p.size
     C = np.vstack([p.G, np.eye(n), -np.eye(n)])
     d = np.concatenate([p.h, p.upper, -p.lower])
-    kind = PENALTIES.index(settings.penalty)
+    kind = code(settings.penalty)
     P = np.array([penalty(kind, settings.factor, settings.sharpness, g) for g in C @ y[:n] - d])
     F = np.concatenate([y[:n] - p.target + p.A.T @ y[n:] + C.T @ P[:, 1], p.A @ y[:n] - p.b])
     H = np.eye(n) + C.T @ (P[:, 2:] * C)
     return F, np.block([[H, p.A.T], [p.A, np.zeros((len(p.b),) * 2)]])
 
 
-@pytest.mark.parametrize("name", PENALTIES)
+@pytest.mark.parametrize("name", Penalty)
 def test_optimality_and_its_jacobian(name):
     rng = np.random.default_rng(0)
     p = random_problem(rng)
@@ -92,8 +93,8 @@ def test_optimality_and_its_jacobian(name):
     parts = p.parts
     y = 0.3 * rng.normal(size=20)
     F, H = np.empty(20), np.empty((14, 14))
-    optimality(settings.numbers(), *parts, y, F)
-    penalised_hessian(settings.numbers(), p.target, *parts[3:], y, H)
+    optimality(settings.numbers(), parts, y, F)
+    penalised_hessian(settings.numbers(), parts, y, H)
     readable, M = readable_optimality(p, settings, y)
     np.testing.assert_allclose(F, readable, atol=1e-12)
     np.testing.assert_allclose(H, M[:14, :14], atol=1e-12)
@@ -102,7 +103,7 @@ def test_optimality_and_its_jacobian(name):
         for end, sign in zip(ends, (1, -1), strict=True):
             moved = y.copy()
             moved[k] += sign * step
-            optimality(settings.numbers(), *parts, moved, end)
+            optimality(settings.numbers(), parts, moved, end)
         np.testing.assert_allclose((ends[0] - ends[1]) / (2 * step), M[:, k], rtol=1e-6, atol=1e-4)
 
 
@@ -124,19 +125,19 @@ def test_primal_dual_network_in_matrices_and_at_its_rest_point(seed):
     low = np.concatenate([p.lower, np.full(m, -np.inf), np.zeros(k)])
     high = np.concatenate([p.upper, np.full(m + k, np.inf)])
     e, d = np.empty_like(u), np.empty_like(u)
-    projection_error(*parts, u, e)
+    projection_error(parts, u, e)
     np.testing.assert_allclose(e, u - (u - (M @ u + q)).clip(low, high), atol=1e-12)
-    direction(p.A, p.G, e, d)
+    direction(parts, e, d)
     np.testing.assert_allclose(d, e + M.T @ e, atol=1e-12)
     exact = solve(p)
-    projection_error(*parts, np.concatenate([exact.x, -exact.y, exact.z]), e)
+    projection_error(parts, np.concatenate([exact.x, -exact.y, exact.z]), e)
     assert np.abs(e).max() < 1e-9
 
 
 def test_primal_dual_iteration_converges():
     p = random_problem(np.random.default_rng(1), 6, 5)
     u = np.zeros(25)
-    made = iterate(*p.parts, u, 200_000, 1e-8)
+    made = iterate(p.parts, u, 200_000, 1e-8)
     assert made < 200_000
     np.testing.assert_allclose(u[:14], solve(p).x, atol=1e-6)
 
@@ -149,5 +150,5 @@ def test_bad_settings_are_refused(wrong):
 
 @pytest.mark.parametrize("name", ["penalty", "activation", "feed_forward"])
 def test_unknown_names_are_refused(name):
-    with pytest.raises(UnknownNameError, match="one of"):
+    with pytest.raises(UnknownNameError, match="should be"):
         NetworkSettings(**{name: "other"})

@@ -8,7 +8,7 @@ from dualarm_repro.control.frozen import arm_pair
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.penalised import rest_point
 from dualarm_repro.control.random_tasks import draw_task
-from dualarm_repro.control.settings import Settings
+from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import pseudo_inverse
 from dualarm_repro.control.task_search import DEEP, KEPT, TRACKED, score
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
@@ -54,7 +54,7 @@ def test_panda_has_twelve_capsules():
 
 @pytest.mark.parametrize("name", ["crossing", "crossing_xarm7"])
 def test_frozen_crossings_meet_their_criteria_at_the_control_rate(name):
-    scenario, settings = frozen(name), Settings()
+    scenario, settings = frozen(name), ControllerSettings()
     naive = run(scenario, pseudo_inverse(settings), CONTROL_STEP)
     motion = run(scenario, settings, CONTROL_STEP)
     assert naive.smallest_distance < DEEP
@@ -73,7 +73,7 @@ def test_frozen_files_hold_the_recorded_draw(scenario):
     assert file.radius == pytest.approx(task.radius, abs=1e-6)
     assert file.found.seed[0] == SEED
     assert f"among {searched.draws} draws; {searched.wanted.words}" in file.found.criteria
-    assert score(system, task, searched.wanted, Settings()) is not None
+    assert score(system, task, searched.wanted, ControllerSettings()) is not None
 
 
 def test_stored_study_is_current_and_large_enough():

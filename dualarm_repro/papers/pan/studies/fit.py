@@ -17,6 +17,7 @@ STARTS, DRAWS, EVALUATIONS = 4, 48, 320
 _COARSE = 18  # seam points while searching
 _NEAR = 0.025  # [m], where a climb may end
 _SMALLEST = 0.01  # step, as a share of the range
+_SAME = 1e-9  # [m], what round-off can change
 #: The readings in which optima come nearest to print, see :mod:`.consistency`.
 READINGS = {"base_transform": "literal", "objective": "tight"}
 #: Assumptions that are changed.
@@ -55,7 +56,7 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
             for trial in _neighbours(entries[key], shares[key], step):
                 changed = shares | {key: trial}
                 found, count = distance(_values(entries, changed), _COARSE), count + 1
-                if found < best:
+                if found < best - _SAME:
                     shares, best, improved = changed, found, True
                     break
         step = step if improved else 0.5 * step

@@ -12,7 +12,7 @@ from ....control.joint_ranges import angle_excess, speed_excess
 from ....control.neural.fixed_step import simulate_network
 from ....control.neural.network_settings import NetworkSettings
 from ....control.random_tasks import admissible, draw_task, naive_motion
-from ....control.settings import FORMS, Settings
+from ....control.settings import ControllerSettings, RowForm
 from ....control.simulate import simulate
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
@@ -26,8 +26,8 @@ SETTINGS = Chosen(
     radii=list(RADII),
     step=COARSE_STEP,
     network_step=CONTROL_STEP,
-    outer=Settings().outer,
-    inner=Settings().inner,
+    outer=ControllerSettings().outer,
+    inner=ControllerSettings().inner,
 )
 
 _CHATTER = "motion with slack chatters between its rows, which amplifies round-off"
@@ -50,7 +50,7 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
     A task counts if its start is outside the outer range and the pseudo-inverse follows its path.
     """
     system = arm_pair(redundant_arm(SETTINGS["robot"]), SETTINGS["base_distance"])
-    settings, task = Settings(), draw_task(system, rng, RADII)
+    settings, task = ControllerSettings(), draw_task(system, rng, RADII)
     naive = naive_motion(system, task, settings)
     if not admissible(naive, settings):
         return {"counts": False}
@@ -63,8 +63,8 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
     if not found["collides"]:
         return found
     parts = (system, task.circles(system), task.q0)
-    for form in FORMS:
-        motion = simulate(*parts, Settings(form=form), dt=COARSE_STEP)
+    for form in RowForm:
+        motion = simulate(*parts, ControllerSettings(form=form), dt=COARSE_STEP)
         found |= {
             f"{form}_completed": motion.completed,
             f"{form}_distance": motion.smallest_distance,
@@ -72,7 +72,7 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
             f"{form}_acceleration": motion.peak_acceleration,
             f"{form}_energy": motion.energy,
         }
-    limited = simulate(*parts, Settings(avoid=False), dt=COARSE_STEP)
+    limited = simulate(*parts, ControllerSettings(avoid=False), dt=COARSE_STEP)
     slack = simulate(*parts, settings, dt=COARSE_STEP, slack=True)
     network = simulate_network(*parts, settings, NetworkSettings(), dt=CONTROL_STEP)
     return found | {

@@ -10,7 +10,7 @@ import pandas as pd
 
 from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
-from .....control.settings import Settings
+from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....view.arm_drawings import skeleton
@@ -113,7 +113,7 @@ def _tip_paths(scenario: FrozenScenario) -> list[np.ndarray]:
 
 
 def _comparison_figure(
-    scenario: FrozenScenario, settings: Settings, naive: Motion, motion: Motion
+    scenario: FrozenScenario, settings: ControllerSettings, naive: Motion, motion: Motion
 ) -> Any:
     worst = int(naive.distance.argmin())
     at = min(worst, len(motion.q) - 1)

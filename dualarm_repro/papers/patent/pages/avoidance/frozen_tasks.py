@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
@@ -15,7 +14,7 @@ from .....control.motion import Motion
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import control_cost, network_control_cost
-from .....control.settings import Settings
+from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
 from .....tracking import memo
@@ -176,7 +175,7 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
 
 
 def _three(
-    scenario: FrozenScenario, settings: Settings, dt: float
+    scenario: FrozenScenario, settings: ControllerSettings, dt: float
 ) -> tuple[Motion, Motion, Motion]:
     """Motions by the pseudo-inverse, by the QP with slack, and by the network."""
     return (
@@ -186,9 +185,9 @@ def _three(
     )
 
 
-def _changed(scenario: FrozenScenario, settings: Settings, motion: Motion) -> np.ndarray:
+def _changed(scenario: FrozenScenario, settings: ControllerSettings, motion: Motion) -> np.ndarray:
     """How far each joint velocity is from the one without avoidance at the same place [rad/s]."""
-    controller = VelocityController(scenario.system, replace(settings, avoid=False))
+    controller = VelocityController(scenario.system, settings.changed(avoid=False))
     return np.array(
         [
             np.abs(controller.velocity(q, *scenario.circles.at(t)) - x).max()
@@ -198,7 +197,7 @@ def _changed(scenario: FrozenScenario, settings: Settings, motion: Motion) -> np
 
 
 @memo(64)
-def _step_operations(settings: Settings) -> dict[str, float]:
+def _step_operations(settings: ControllerSettings) -> dict[str, float]:
     """Operations of one whole step of each solver where most rows are active."""
     scenario = frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)
@@ -226,7 +225,7 @@ def _nearest_pair(
     return approach, bound
 
 
-def _step_seconds(scenario: FrozenScenario, settings: Settings) -> float:
+def _step_seconds(scenario: FrozenScenario, settings: ControllerSettings) -> float:
     """Time of one step within the compiled loop [s], the best of three runs."""
     times = []
     for _ in range(3):

@@ -9,7 +9,7 @@ import pandas as pd
 
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, pseudo_inverse_cost
-from .....control.settings import FORMS
+from .....control.settings import RowForm
 from .....ledger import REGISTRY, Assumed, Generally, Result, Share
 from .....view.shares import shares_figure
 from ...problems import recorded
@@ -37,7 +37,7 @@ def avoids(assumed: Assumed) -> Result:
     free = {name: _count(column > 0.0) for name, column in columns.items()}
     kept = {name: _count(column >= least) for name, column in columns.items()}
     smallest = {
-        name: float(table[f"{name}_distance"].min()) for name in (*FORMS, "slack", "network")
+        name: float(table[f"{name}_distance"].min()) for name in (*RowForm, "slack", "network")
     }
     faster = int((table["network_beyond_speed"] > 0.0).sum())
     yields = "the task yields" if exact == "slack" else "the motion stops"
@@ -85,7 +85,7 @@ def completes(assumed: Assumed) -> Result:
     bound, form = assumed["accuracy_bound"], assumed["avoidance_form"]
     done = {
         name: _count(table[f"{name}_completed"].astype(bool) & (table[f"{name}_error"] <= bound))
-        for name in (*FORMS, "slack")
+        for name in (*RowForm, "slack")
     }
     chosen = done["slack" if assumed["infeasible_policy"] == "slack_on_task" else form]
     network = _count(
@@ -96,7 +96,7 @@ def completes(assumed: Assumed) -> Result:
     )
     large = float((table["slack_error"] > 1e-2).mean())
     shares = {
-        _WORDS[name]: {"exact QP": Share.of(done[name]["count"], len(table))} for name in FORMS
+        _WORDS[name]: {"exact QP": Share.of(done[name]["count"], len(table))} for name in RowForm
     }
     counted = counted_tasks(assumed)
     return Result(
@@ -110,7 +110,7 @@ def completes(assumed: Assumed) -> Result:
             "off_by_a_centimetre_with_slack": large,
         },
         table=pd.DataFrame(
-            [(name, *_quality(table, name)) for name in FORMS],
+            [(name, *_quality(table, name)) for name in RowForm],
             columns=[
                 "reading",
                 "completed",
@@ -127,7 +127,7 @@ def completes(assumed: Assumed) -> Result:
             "and avoidance exclude each other at some instant. Where the task then yields, "
             f"{large:.0%} leave the path by more than a centimetre. The scheme looks no step "
             "ahead. The other readings of J_N complete "
-            + ", ".join(f"{done[name]['count']} ({_WORDS[name]})" for name in FORMS[1:])
+            + ", ".join(f"{done[name]['count']} ({_WORDS[name]})" for name in tuple(RowForm)[1:])
             + "."
         ),
         alt="Bars with the share of colliding tasks completed by each of five readings of the "

@@ -16,7 +16,7 @@ from .....control.neural.continuous import INTEGRATORS, integrate_network
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.primal_dual import simulate_primal_dual
-from .....control.settings import Settings
+from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result
 from .....tracking import memo
 from ...document import CONTROL_STEP, SEED, frozen, run
@@ -133,18 +133,18 @@ def _motions(
 @memo(64)
 def _network(network: NetworkSettings, kind: str, size: float, number: int) -> Motion:
     parts, disturbed = frozen("crossing").parts, _disturbed(kind, size, number)
-    return simulate_network(*parts, Settings(), network, **disturbed)
+    return simulate_network(*parts, ControllerSettings(), network, **disturbed)
 
 
 @memo(64)
 def _primal_dual(count: int, kind: str, size: float, number: int) -> Motion:
     parts, disturbed = frozen("crossing").parts, _disturbed(kind, size, number)
-    return simulate_primal_dual(*parts, Settings(), iterations=count, **disturbed)
+    return simulate_primal_dual(*parts, ControllerSettings(), iterations=count, **disturbed)
 
 
 @memo(64)
 def _exact(kind: str, size: float, number: int) -> Motion:
-    return run(frozen("crossing"), Settings(), **_disturbed(kind, size, number))
+    return run(frozen("crossing"), ControllerSettings(), **_disturbed(kind, size, number))
 
 
 def _disturbed(kind: str, size: float, number: int) -> dict[str, np.ndarray]:
@@ -204,7 +204,7 @@ def _interval(values: list[float]) -> dict[str, float]:
 def accurate(assumed: Assumed) -> Result:
     """Largest tip error of the network over the frozen task, to the micrometre."""
     scenario = frozen("crossing")
-    settings = Settings(feedback=assumed["feedback_gain"])
+    settings = ControllerSettings(feedback=assumed["feedback_gain"])
     network = NetworkSettings(gamma=assumed["gain"])
     size = scenario.system.nq + 3 * len(scenario.system.arms)
     y0 = _initial_state(assumed["initial_state"], size)
@@ -240,7 +240,7 @@ def _initial_state(name: str, size: int) -> np.ndarray:
 
 def _network_motion(
     scenario: FrozenScenario,
-    settings: Settings,
+    settings: ControllerSettings,
     network: NetworkSettings,
     integrator: str,
     y0: np.ndarray,

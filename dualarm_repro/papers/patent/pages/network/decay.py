@@ -9,15 +9,16 @@ import pandas as pd
 from scipy.integrate import solve_ivp
 
 from .....control.assembly import make_buffers, sense, state
-from .....control.neural.activation import ACTIVATIONS, SLOPE_AT_ZERO, activation
+from .....control.neural.activation import SLOPE_AT_ZERO, activation
 from .....control.neural.continuous import INTEGRATORS, integrate_network
 from .....control.neural.fixed_step import divergence_time, simulate_network
 from .....control.neural.network import network_rate, state_rate
 from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.optimality import optimality
 from .....control.neural.penalised import code_error, state_with_error
-from .....control.settings import ROWS, Settings
+from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....settings import code
 from .....view.control_figures import decay_figure
 from ...document import CONTROL_STEP, SEED, frozen
 from ...problems import sample_problem
@@ -68,12 +69,12 @@ def _decay_defect(network: NetworkSettings) -> float:
     size = p.size + len(p.b)
     still = np.zeros(size)
     y0 = state_with_error(p, network, np.random.default_rng(SEED).uniform(-START, START, size))
-    start, kind = code_error(p, network, y0), ACTIVATIONS.index(network.activation)
+    start, kind = code_error(p, network, y0), code(network.activation)
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
         dy = np.empty(size)
         network_rate(
-            numbers, network.gamma * np.exp(t), still, *p.parts, np.ascontiguousarray(y), dy
+            numbers, network.gamma * np.exp(t), still, p.parts, np.ascontiguousarray(y), dy
         )
         return dy
 
@@ -168,7 +169,7 @@ def _decay(activation: str, gamma: float, kind: str) -> np.ndarray:
         errors.append(float(np.abs(code_error(p, network, y)).max()))
         grown = gamma * np.exp(step * CONTROL_STEP) if kind == "growing" else gamma
         gain = ceiling if kind == "ceiling" else min(grown, ceiling)
-        network_rate(numbers, gain, still, *p.parts, y, rate)
+        network_rate(numbers, gain, still, p.parts, y, rate)
         y = y + CONTROL_STEP * rate
         if not errors[-1] < 1e6 or errors[-1] < _DONE:
             break
@@ -201,13 +202,13 @@ def state_equation(assumed: Assumed) -> Result:
     network = network_settings(
         assumed, "state_matrix", "feed_forward", "gain", "activation", "penalty_form"
     )
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     smooth = NetworkSettings(penalty=network.penalty)
     motion, _ = integrate_network(*scenario.parts, settings, smooth, sample=0.02)
     system, numbers, numbered = scenario.system, settings.numbers(), network.numbers()
     arrays, circle = system.arrays, scenario.circles.numbers()
     n, size = system.nq, system.nq + 3 * len(system.arms)
-    buffers = make_buffers(arrays, ROWS[numbers.form])
+    buffers = make_buffers(arrays, numbers)
     no_noise, still = np.empty(0), np.zeros(size)
     rng = np.random.default_rng(SEED)
     k = int(motion.distance[:-1].argmin())
@@ -217,9 +218,9 @@ def state_equation(assumed: Assumed) -> Result:
         """xi a time s later."""
         count = sense(arrays, numbers, q + s * move, no_noise, buffers)
         later = scenario.circles.at(t + s)
-        rows = state(arrays, numbers, q + s * move, scenario.q0, *later, count, buffers)
-        B, F = buffers, np.empty(size)
-        optimality(numbered, B.target, B.A, B.b, B.G[:rows], B.h[:rows], B.lower, B.upper, y, F)
+        program = state(arrays, numbers, q + s * move, scenario.q0, *later, count, buffers)
+        F = np.empty(size)
+        optimality(numbered, program, y, F)
         return F
 
     for _ in range(10):
@@ -259,7 +260,7 @@ def state_equation(assumed: Assumed) -> Result:
 )
 def integration(assumed: Assumed) -> Result:
     """Joint angles from the network state over the frozen task."""
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     arguments = (*scenario.parts, settings, NetworkSettings())
     if assumed["integrator"] in INTEGRATORS:
         motion, evaluations = integrate_network(*arguments, integrator=assumed["integrator"])

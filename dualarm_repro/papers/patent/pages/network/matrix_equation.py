@@ -15,8 +15,8 @@ from .....control.neural.penalised import (
     rest_point,
     state_matrix,
 )
-from .....control.neural.penalty import PENALTIES
-from .....control.problem import Problem
+from .....control.neural.penalty import Penalty
+from .....control.problem import QuadraticProgram
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
 from .....ledger.formula import Formula, parse
@@ -50,7 +50,7 @@ def lagrange_function(assumed: Assumed) -> Result:
         caption=(
             "Objective with penalty, plus lambda times the equality: the words around the lost "
             f"formula leave no other. Its differences at {_STATES} states for each of "
-            f"{len(PENALTIES)} penalties agree with the error that the compiled network drives to "
+            f"{len(Penalty)} penalties agree with the error that the compiled network drives to "
             f"zero to {worst:.1e} of the largest entry."
         ),
     )
@@ -146,7 +146,7 @@ def error_function(assumed: Assumed) -> Result:
         obtained={"compiled": worst, "at_minimiser": rest},
         caption=(
             f"The error that the code drives to zero is the printed {printed.text}, to "
-            f"{worst:.1e} of its size with the blocks built anew for {len(PENALTIES)} forms of "
+            f"{worst:.1e} of its size with the blocks built anew for {len(Penalty)} forms of "
             f"the penalty. At the minimiser the printed right side is {rest:.1e}."
         ),
     )
@@ -182,12 +182,12 @@ def _networks() -> dict[str, NetworkSettings]:
     """Each form of the penalty; the exponential with p s = 1, so that its rest lies near g = 0."""
     factors = {"exponential": 1e-3, "softplus": 1e2}
     return {
-        name: NetworkSettings(penalty=name, factor=factors.get(name, NetworkSettings.factor))
-        for name in PENALTIES
+        name: NetworkSettings(penalty=name, factor=factors.get(name, NetworkSettings().factor))
+        for name in Penalty
     }
 
 
-def _states() -> list[tuple[Problem, NetworkSettings, np.ndarray]]:
+def _states() -> list[tuple[QuadraticProgram, NetworkSettings, np.ndarray]]:
     """Random states about the rest point of each form."""
     p, rng = sample_problem(), np.random.default_rng(SEED)
     size = p.size + len(p.b)
@@ -202,12 +202,14 @@ def _apart(found: np.ndarray, expected: np.ndarray) -> float:
     return float(np.abs(found - expected).max() / max(np.abs(expected).max(), 1e-12))
 
 
-def _named(p: Problem, network: NetworkSettings, y: np.ndarray) -> dict[str, np.ndarray]:
+def _named(p: QuadraticProgram, network: NetworkSettings, y: np.ndarray) -> dict[str, np.ndarray]:
     """The names of the printed equations."""
     return dict(zip(("E", "y", "e"), blocks(p, network, y), strict=True))
 
 
-def _sides(printed: Formula, p: Problem, network: NetworkSettings, y: np.ndarray) -> np.ndarray:
+def _sides(
+    printed: Formula, p: QuadraticProgram, network: NetworkSettings, y: np.ndarray
+) -> np.ndarray:
     """Left side less right side."""
     given = _named(p, network, y)
     return np.asarray(printed.value(0, given) - printed.value(1, given))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -12,10 +11,11 @@ import pandas as pd
 from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.optimality import optimality
 from .....control.neural.penalised import code_error, inequalities, penalties, rest_point
-from .....control.neural.penalty import PENALTIES, penalty
-from .....control.problem import Problem
+from .....control.neural.penalty import Penalty, penalty
+from .....control.problem import QuadraticProgram
 from .....control.solvers import solve
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from .....settings import code
 from .....view.control_figures import penalty_figure
 from ...problems import sample_problem
 from ...reading import PENALTY, network_settings
@@ -44,8 +44,8 @@ def penalty_function(assumed: Assumed) -> Result:
     """Every declared form at the ends of the declared parameters, against central differences."""
     found = [_properties(*choice) for choice in _declared()]
     forms = {
-        name: np.array([penalty(PENALTIES.index(name), _drawn(name), 10.0, v)[0] for v in _GRID])
-        for name in PENALTIES
+        name: np.array([penalty(code(Penalty(name)), _drawn(name), 10.0, v)[0] for v in _GRID])
+        for name in Penalty
     }
     worst = {key: max(row[key] for row in found) for key in ("first", "second", "inside")}
     return Result(
@@ -157,8 +157,7 @@ def penalised_problem(assumed: Assumed) -> Result:
 def stiffened(network: NetworkSettings, factor: float) -> NetworkSettings:
     """The same form nearer to its hard limit."""
     quadratic = network.penalty in ("quadratic", "squared_softplus")
-    return replace(
-        network,
+    return network.changed(
         # The exponential keeps p s, so that a multiplier of one stays at g = 0.
         factor=network.factor
         * (factor if quadratic else 1.0 / factor if network.penalty == "exponential" else 1.0),
@@ -177,7 +176,7 @@ def _declared() -> list[tuple[str, float, float]]:
 
 
 def _properties(form: str, p: float, s: float) -> dict[str, float]:
-    kind = PENALTIES.index(form)
+    kind = code(Penalty(form))
     # The quadratic form has a kink at zero, which the grid leaves out.
     g = np.linspace(-4.0, 4.0, 41)[np.arange(41) != 20] / s
     step = 1e-5 / s
@@ -199,7 +198,7 @@ def _properties(form: str, p: float, s: float) -> dict[str, float]:
     }
 
 
-def _without_effect(p: Problem, network: NetworkSettings) -> int:
+def _without_effect(p: QuadraticProgram, network: NetworkSettings) -> int:
     """Inequalities whose bound can be moved to a violation without a change of the code's error."""
     C, d = inequalities(p)
     y = rest_point(p, network)
@@ -210,7 +209,7 @@ def _without_effect(p: Problem, network: NetworkSettings) -> int:
         # A lower bound above the upper one is no problem to pose, but the error is still defined.
         h, upper, lower = np.split(bound, [k, k + p.size])
         after = np.empty(len(y))
-        optimality(network.numbers(), p.target, p.A, p.b, p.G, h, -lower, upper, y, after)
+        optimality(network.numbers(), p.parts._replace(h=h, lower=-lower, upper=upper), y, after)
         silent += bool(np.abs(after - before).max() < 1e-9 * network.factor)
     return silent
 

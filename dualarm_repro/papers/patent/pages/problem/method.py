@@ -14,7 +14,7 @@ from .....control import assembly, avoidance, kinematics
 from .....control.instrument import Instrument
 from .....control.neural import fixed_step, network, optimality, penalty
 from .....control.neural.network_settings import NetworkSettings
-from .....control.settings import ROWS, Settings
+from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from .....tracking import memo
 from .....view.diagrams import block_diagram, flow_chart
@@ -49,13 +49,13 @@ def trace() -> tuple[str, ...]:
 
     The run starts inside the inner range, so that avoidance rows are present.
     """
-    scenario, numbers = frozen("too_close"), Settings().numbers()
+    scenario, numbers = frozen("too_close"), ControllerSettings().numbers()
     system, instrument = scenario.system, Instrument()
     none, size = np.empty((0, 0)), system.nq + 3 * len(system.arms)
     instrument.twin(fixed_step.run_network)(
         *(system.arrays, numbers, NetworkSettings().numbers(CONTROL_STEP)),
         *(scenario.circles.numbers(), scenario.q0, np.zeros(size), 2, CONTROL_STEP),
-        *(none, none, ROWS[numbers.form]),
+        *(none, none),
     )
     return tuple(instrument.returned)
 

@@ -16,7 +16,7 @@ from .....control.joint_ranges import random_configuration
 from .....control.mesh_containment import mesh_excess
 from .....control.problem import NoSolution
 from .....control.recorded import recorded_problems
-from .....control.settings import Settings
+from .....control.settings import ControllerSettings
 from .....control.solvers import SOLVERS, solve
 from .....control.statement import statement
 from .....control.system import ArmSystem
@@ -106,8 +106,8 @@ def avoidance_rows(assumed: Assumed) -> Result:
     """Rows, differences of the distances, and what motion within the rows does to them."""
     scenario = crossing(assumed, "capsules")
     settings = controller_settings(assumed, "avoidance_form", "pair_selection")
-    near = run(scenario, Settings(), COARSE_STEP)
-    middle = 0.5 * (Settings().inner + Settings().outer)
+    near = run(scenario, ControllerSettings(), COARSE_STEP)
+    middle = 0.5 * (ControllerSettings().inner + ControllerSettings().outer)
     q = near.q[int(np.abs(near.distance - middle).argmin())]
     gradient = _worst_gradient(scenario.system)
     rows, faster = _closing(scenario, settings, q)
@@ -147,7 +147,7 @@ def avoidance_rows(assumed: Assumed) -> Result:
 )
 def quadratic_program(assumed: Assumed) -> Result:
     """The problem along the frozen task, solved by every solver and certified."""
-    scenario, settings = frozen("crossing"), Settings()
+    scenario, settings = frozen("crossing"), ControllerSettings()
     motion = run(scenario, settings, COARSE_STEP)
     problems = recorded_problems(scenario.system, scenario.circles, motion, settings, 100)
     reference = [solve(p) for p in problems]
@@ -195,11 +195,13 @@ def uncovered(robot: str, capsules: str = "widened") -> dict[str, float]:
     return mesh_excess(arm, path, configurations)
 
 
-def _closing(scenario: FrozenScenario, settings: Settings, q: np.ndarray) -> tuple[int, float]:
+def _closing(
+    scenario: FrozenScenario, settings: ControllerSettings, q: np.ndarray
+) -> tuple[int, float]:
     """Rows, and by how much a distance below d1 closes faster than beta(d) within them [m/s]."""
     system = scenario.system
     p = VelocityController(system, settings).problem(q, system.tips(q), STILL)
-    every = VelocityController(system, Settings()).problem(q, system.tips(q), STILL)
+    every = VelocityController(system, ControllerSettings()).problem(q, system.tips(q), STILL)
     lengths = np.linalg.norm(p.G, axis=1)
     rng, worst = np.random.default_rng(SEED), -np.inf
     for _ in range(_MOTIONS):
@@ -214,7 +216,7 @@ def _closing(scenario: FrozenScenario, settings: Settings, q: np.ndarray) -> tup
 
 def _worst_gradient(system: ArmSystem) -> float:
     """Largest difference of row gradients to central differences over random configurations."""
-    controller = VelocityController(system, Settings(outer=10.0))
+    controller = VelocityController(system, ControllerSettings(outer=10.0))
     rng, worst = np.random.default_rng(SEED), 0.0
     for _ in range(5):
         q = random_configuration(system, rng)

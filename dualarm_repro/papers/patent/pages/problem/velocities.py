@@ -11,7 +11,7 @@ from .....control.controller import VelocityController
 from .....control.frozen import FrozenScenario
 from .....control.joint_ranges import random_configuration
 from .....control.redundancy import inertia_weighted, self_motion
-from .....control.settings import Settings
+from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
@@ -101,7 +101,7 @@ def least_velocity(assumed: Assumed) -> Result:
     system = scenario.system
     worst, excess = 0.0, 0.0
     rng = np.random.default_rng(SEED)
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     for _ in range(20):
         q, velocity = random_configuration(system, rng), rng.normal(size=(2, 3))
         p = controller.problem(q, system.tips(q), velocity)
@@ -146,7 +146,7 @@ def _forward(printed: Formula, scenario: FrozenScenario) -> tuple[float, float, 
     halves = np.split(q, 2)
     model = [placed.arm.fk(part)[:3, 3] for placed, part in zip(system.arms, halves, strict=True)]
     f = np.array([p.placement.act(tip) for p, tip in zip(system.arms, model, strict=True)])
-    controller = VelocityController(system, pseudo_inverse(Settings()))
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     tips = system.tips(q)
     controller.velocity(q, tips, STILL)
     given = {"f": f, "r": controller.tips}
@@ -157,5 +157,5 @@ def _forward(printed: Formula, scenario: FrozenScenario) -> tuple[float, float, 
 
 
 def _drift(scenario: FrozenScenario, weight: float) -> list[float]:
-    motion = run(scenario, Settings(repetition=weight), COARSE_STEP, cycles=5)
+    motion = run(scenario, ControllerSettings(repetition=weight), COARSE_STEP, cycles=5)
     return motion.drift(scenario.period).tolist()

@@ -14,7 +14,7 @@ from .....planning.checks.recorded_steps import step_difference
 from .....planning.descent.adaptive_step import step_length
 from .....planning.field.variable_gain import gain_factor
 from .....planning.search.bidirectional_settings import GainRule, StepRule
-from .....planning.settings import code
+from .....settings import code
 from ...document import PRINTED, goal_to_surface, printed, value_of
 from ...reading import Goal, VariableGain
 
