@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import copy
+from typing import Any
+
+import numpy as np
 
 from .arm import Arm
 
 
 def counting_inverse(arm: Arm) -> tuple[Arm, list[None]]:
     """A copy of the arm, and a list that grows by one entry with every call of ``ik_branches``."""
-    counted, calls = copy.copy(arm), []
+    counted = copy.copy(arm)
+    calls: list[None] = []
 
-    def noted(*args: object, **options: object) -> object:
+    def noted(*args: Any, **options: Any) -> np.ndarray:
         calls.append(None)
         return arm.ik_branches(*args, **options)
 
-    counted.ik_branches = noted
+    counted.ik_branches = noted  # type: ignore[method-assign]
     return counted, calls

@@ -83,7 +83,7 @@ def add_contacts(made: Scene3D, replay: Replay) -> Scene3D:
         made.add_sphere(f"in bar {k}", plan.tcp[k], 0.05, _CONTACT)
     deepest, nearest = contacts_of(replay)
     made.add_sphere("meeting", plan.tcp[nearest], 0.09, _CONTACT)
-    for name, k in (("at bar", deepest), ("at meeting", nearest)):
+    for name, at in (("at bar", deepest), ("at meeting", nearest)):
         shown = f"{placed.name} {name}"
-        made.add_arm(shown, placed.arm, plan.path[k], placed.placement, _CONTACT, 0.3)
+        made.add_arm(shown, placed.arm, plan.path[at], placed.placement, _CONTACT, 0.3)
     return made
