@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from scipy.optimize import minimize
 
 from ...arms import Arm, load_arm
 from ...arms.angle import Angle
+from ...arms.reach import largest_reach
 from ...arms.robot_file import DHRobot, load_robot_file
+from ...arms.tool_postures import tool_posture
 from ...datafiles import data_path
 from ...ledger import REGISTRY
 from ...ledger.assumptions import FromAssumptions
@@ -33,8 +34,6 @@ _LIMITS = {
     "arte165": {2: ("-230 deg", "142.5 deg")},
     "full_turns": dict.fromkeys(range(6), ("-180 deg", "180 deg")),
 }
-_ELBOW = 2  # row of frame 3 among the joint origins
-_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 def assumption(name: str) -> Any:
@@ -135,29 +134,8 @@ def arms_of(dh_source: str) -> tuple[Arm, Arm]:
 
 @memo()
 def reach(reading: str) -> float:
-    """Largest distance of the flange from the origin of the base, joint limits left aside [m].
-
-    Best of 20 000 random configurations, polished by quasi-Newton steps with the exact Jacobian.
-    """
-    arm = load_arm(READINGS[reading])
-    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (20_000, arm.nq))
-    best = q[np.argmax(np.linalg.norm(arm.fk(q)[:, :3, 3], axis=1))]
-
-    def negative_square(configuration: np.ndarray) -> tuple[float, np.ndarray]:
-        point = arm.fk(configuration)[:3, 3]
-        return -float(point @ point), -2.0 * point @ arm.jacobian(configuration)[:3]
-
-    found = minimize(negative_square, best, jac=True, method="BFGS", options={"gtol": 1e-10})
-    return float(np.sqrt(-found.fun))
-
-
-def base_placements(distance: float) -> tuple[pin.SE3, pin.SE3]:
-    """Master and mirrored slave, their bases ``distance`` apart along y, symmetric to the xz plane.
-
-    The master reaches toward -y at its printed goal, so it stands on the +y side.
-    """
-    half = np.array([0.0, 0.5 * distance, 0.0])
-    return pin.SE3(np.eye(3), half), pin.SE3(np.eye(3), -half)
+    """Largest distance of the flange from the base, joint limits left aside [m]."""
+    return largest_reach(load_arm(READINGS[reading]), np.random.default_rng(SEED))
 
 
 @dataclass(frozen=True)
@@ -206,12 +184,15 @@ class Layout(FromAssumptions):
         level = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "chord": (chord[0], chord[1], 0.0)}
         return np.array(level[self.window_normal])
 
+    @property
+    def opening(self) -> tuple[float, float]:
+        """Width and height of the opening [m]."""
+        return self.window_opening_width, self.window_opening_height
+
     def window(self) -> tuple:
         """The four bars."""
-        size = (self.window_opening_width, self.window_opening_height)
-        return window_frame(
-            self.window_centre, facing(self.normal), *size, self.window_bar, self.window_bar
-        )
+        bar = self.window_bar
+        return window_frame(self.window_centre, facing(self.normal), *self.opening, bar, bar)
 
     def slave_points(self) -> tuple[np.ndarray, np.ndarray]:
         """Start and End in the world, (3,) each [m]."""
@@ -231,7 +212,7 @@ def placed_slave(layout: Layout) -> PlacedArm | None:
     """The slave on its base, with postures at Start and End; None where one is out of reach."""
     arm, base = arms_of(layout.dh_source)[1], layout.slave_base
     points = layout.slave_points()
-    start, goal = (posture(arm, point - base, layout.slave_postures) for point in points)
+    start, goal = (tool_posture(arm, point - base, layout.slave_postures) for point in points)
     if start is None or goal is None:
         return None
     return PlacedArm("slave", arm, pin.SE3(np.eye(3), base), start, goal)
@@ -241,47 +222,3 @@ def scene_of(layout: Layout, floor: float | None = None) -> Scene:
     """Both arms and the window; links of one arm are not watched against each other."""
     arms = [placed for placed in (placed_master(layout), placed_slave(layout)) if placed]
     return Scene(arms, {"window": layout.window()}, floor=floor, self_collision=False)
-
-
-def posture(arm: Arm, point: np.ndarray, choice: str) -> np.ndarray | None:
-    """Configuration that brings the flange to ``point``, or None out of reach.
-
-    The pose is completed by the direction of the tool: level and away from axis 1
-    (``radial_horizontal``, ``nearest_branch``) or down (``tool_down``). Turning the tool about its
-    own axis changes neither point nor direction, so that theta_6 = 0 can be had. Of the branches
-    that one is taken whose elbow is highest, with the shoulder turned to the point and
-    |theta_4| <= pi/2, or the one nearest to the zero configuration (``nearest_branch``).
-
-    Parameters
-    ----------
-    point : (3,)
-        In the frame of the base [m].
-    """
-    radial = np.array([point[0], point[1], 0.0])
-    axis = _DOWN if choice == "tool_down" else radial / np.linalg.norm(radial)
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = _frame_along(axis), point
-    found = arm.ik_branches(pose[np.newaxis], reference=np.zeros(arm.nq), within_limits=False)[0]
-    found = found[~np.isnan(found).any(axis=1)]
-    if choice != "nearest_branch":
-        found = found[(np.abs(found[:, 3]) <= 0.5 * np.pi + 1e-9) & _forward(found, point)]
-    if not len(found):
-        return None
-    found[:, 5] = 0.0
-    if choice == "nearest_branch":
-        return found[np.linalg.norm(found, axis=1).argmin()]
-    height = arm.joint_positions(found)[:, _ELBOW, 2]
-    highest = found[height > height.max() - 1e-9]
-    return highest[np.linalg.norm(highest, axis=1).argmin()]
-
-
-def _forward(q: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Whether axis 1 turns the arm toward the point and not away from it (N,)."""
-    return np.cos(q[:, 0]) * point[0] + np.sin(q[:, 0]) * point[1] > 0.0
-
-
-def _frame_along(axis: np.ndarray) -> np.ndarray:
-    """A rotation whose third column is ``axis``."""
-    across = np.cross(axis, [1.0, 0.0, 0.0] if abs(axis[2]) > 0.5 else [0.0, 0.0, 1.0])
-    across /= np.linalg.norm(across)
-    return np.column_stack([across, np.cross(axis, across), axis])

@@ -5,35 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from ...arms import load_arm
+from ...arms.exact_chain import same_function
 from ...ledger import REGISTRY, Proof, evaluate
 from ...planning.field.control_points import end_effector
 from ...planning.trials.stuck import STATIONARY
-from .document import (
-    gains,
-    lengths,
-    master_goal,
-    master_start,
-    placed_master,
-    reach,
-    slave_end,
-    slave_start,
-    table_counts,
-    text_counts,
+from . import document
+from .motions import (
+    cores_of,
+    largest_radius,
+    master_undisturbed,
+    replay_of,
+    slave_plan,
+    smallest_cores,
 )
-from .motions import largest_radius, master_undisturbed, replay_of, slave_plan, smallest_cores
 from .outcomes import TRIALS, VARIANTS, run_variants, starts
+from .pages.kinematics import printed_chain as chain
 from .pages.kinematics.chain import symbolic_poses
-from .pages.kinematics.printed_chain import (
-    LINKS,
-    SHARED,
-    equal,
-    link_matrix,
-    printed_lengths,
-    printed_parameters,
-    substituted,
-    table_parameters,
-    table_pose,
-)
 from .pages.potentials.improved import rest_slope, term_scaling
 from .pages.potentials.traditional import attractive_force_forms
 from .pages.truth import RADII
@@ -44,11 +31,19 @@ from .stored import ablation_shares, clear_share, minima_shares, virtual_point_c
 @REGISTRY.proves("xue.eq01_angle")
 def eq01_angle() -> Proof:
     """Substituting the parameters into (1) as printed and corrected."""
-    literal = [k + 1 for k in LINKS if equal(substituted(k, corrected=False), link_matrix(k))]
-    corrected = [k + 1 for k in LINKS if equal(substituted(k, corrected=True), link_matrix(k))]
+    literal = [
+        k + 1
+        for k in chain.LINKS
+        if same_function(chain.substituted(k, corrected=False), chain.link_matrix(k))
+    ]
+    corrected = [
+        k + 1
+        for k in chain.LINKS
+        if same_function(chain.substituted(k, corrected=True), chain.link_matrix(k))
+    ]
     return Proof(
         "only with the twist angle does (1) reproduce every matrix (2)-(7)",
-        len(corrected) == len(LINKS) > len(literal),
+        len(corrected) == len(chain.LINKS) > len(literal),
         {"matrices_as_printed": literal, "matrices_with_alpha": corrected},
     )
 
@@ -56,10 +51,11 @@ def eq01_angle() -> Proof:
 @REGISTRY.proves("xue.table1_shift")
 def table1_shift() -> Proof:
     """Column a of the table against the matrices, and what the two readings differ by."""
-    column = table_parameters()["a"]
-    matrices = printed_parameters()["a"]
+    column = chain.table_parameters()["a"]
+    matrices = chain.printed_parameters()["a"]
     ends = {
-        pose: _difference(q) for pose, q in (("start", master_start()), ("goal", master_goal()))
+        pose: _difference(q)
+        for pose, q in (("start", document.master_start()), ("goal", document.master_goal()))
     }
     return Proof(
         "the printed column equals that of the matrices moved up one row; the readings agree at "
@@ -70,8 +66,8 @@ def table1_shift() -> Proof:
         {
             "flange_difference_start": ends["start"],
             "flange_difference_goal": ends["goal"],
-            "reach_matrices": reach("matrices"),
-            "reach_table": reach("table"),
+            "reach_matrices": document.reach("matrices"),
+            "reach_table": document.reach("table"),
         },
     )
 
@@ -79,29 +75,33 @@ def table1_shift() -> Proof:
 @REGISTRY.proves("xue.table1_unit")
 def table1_unit() -> Proof:
     """Lengths read as metres are those of the published robot; as millimetres nothing is."""
-    printed, published = printed_lengths(), lengths("published")
-    metres = [name for name in SHARED if np.isclose(printed[name], published[name], atol=1e-12)]
-    millimetres = [name for name in SHARED if np.isclose(1e-3 * printed[name], published[name])]
+    printed, published = chain.printed_lengths(), document.lengths("published")
+    metres = [
+        name for name in chain.SHARED if np.isclose(printed[name], published[name], atol=1e-12)
+    ]
+    millimetres = [
+        name for name in chain.SHARED if np.isclose(1e-3 * printed[name], published[name])
+    ]
     return Proof(
         "read as metres, a1, a3, d4 and d6 are those of the published robot; read as millimetres, "
         "as headed, none is, and the arm would reach a few millimetres",
-        metres == list(SHARED) and not millimetres,
-        {"reach_if_millimetres_in_mm": reach("matrices"), "equal_in_metres": metres},
+        metres == list(chain.SHARED) and not millimetres,
+        {"reach_if_millimetres_in_mm": document.reach("matrices"), "equal_in_metres": metres},
     )
 
 
 @REGISTRY.proves("xue.upper_arm")
 def upper_arm() -> Proof:
     """The one link length that is not that of the robot named."""
-    printed, published = printed_lengths()["a2"], lengths("published")["a2"]
+    printed, published = chain.printed_lengths()["a2"], document.lengths("published")["a2"]
     return Proof(
         "the printed upper arm is shorter than the published one",
         published > printed,
         {
             "printed": printed,
             "published": published,
-            "reach_matrices": reach("matrices"),
-            "reach_published_from_floor": reach("published"),
+            "reach_matrices": document.reach("matrices"),
+            "reach_published_from_floor": document.reach("published"),
         },
     )
 
@@ -109,12 +109,12 @@ def upper_arm() -> Proof:
 @REGISTRY.proves("xue.base_height")
 def base_height() -> Proof:
     """Without the published base height the start lies below the floor."""
-    height = lengths("published")["d1"]
-    z = float(load_arm("es165d").fk(master_start())[2, 3])
+    height = document.lengths("published")["d1"]
+    z = float(load_arm("es165d").fk(document.master_start())[2, 3])
     return Proof(
         "the matrices have no base height, and with the published one the start pose would put the "
         "flange of a standing robot below the floor",
-        printed_lengths()["d1"] == 0.0 < height and z + height < 0,
+        chain.printed_lengths()["d1"] == 0.0 < height and z + height < 0,
         {"published_height": height, "flange_above_floor_at_start": z + height},
     )
 
@@ -123,12 +123,12 @@ def base_height() -> Proof:
 def start_outside_limits() -> Proof:
     """The printed start against the ranges of the real robot, mapped to the document's zero."""
     arm = load_arm("es165d")
-    excess = np.rad2deg(master_start() - arm.upper)
+    excess = np.rad2deg(document.master_start() - arm.upper)
     return Proof(
         "axis L is beyond its range at the printed start and within it at the printed goal",
-        bool(excess[1] > 0 and master_goal()[1] < arm.upper[1]),
+        bool(excess[1] > 0 and document.master_goal()[1] < arm.upper[1]),
         {
-            "axis_L_at_start_deg": float(90 + np.rad2deg(master_start()[1])),
+            "axis_L_at_start_deg": float(90 + np.rad2deg(document.master_start()[1])),
             "beyond_range_deg": float(excess[1]),
         },
     )
@@ -136,7 +136,7 @@ def start_outside_limits() -> Proof:
 
 def _difference(q: np.ndarray) -> float:
     matrices = symbolic_poses(q[np.newaxis])[0]
-    return float(np.linalg.norm(matrices[:3, 3] - table_pose(q)[:3, 3]))
+    return float(np.linalg.norm(matrices[:3, 3] - chain.table_pose(q)[:3, 3]))
 
 
 @REGISTRY.proves("xue.force_modulus")
@@ -192,8 +192,8 @@ def virtual_term_absent() -> Proof:
     """A term of the form (9) that always acts keeps the arm off its goal."""
     case = nominal()
     layout = case.layout
-    share = gains()["k_w"] / (gains()["k_w"] + gains()["k_a"])
-    offset = share * float(np.linalg.norm(slave_end() - layout.window_centre))
+    share = document.gains()["k_w"] / (document.gains()["k_w"] + document.gains()["k_a"])
+    offset = share * float(np.linalg.norm(document.slave_end() - layout.window_centre))
     return Proof(
         "with the term always on, the end effector would rest on the line from goal to virtual "
         "point, so that a rule for switching it off is needed",
@@ -233,7 +233,7 @@ def stop_at_zero() -> Proof:
 @REGISTRY.proves("xue.table2_exchange")
 def table2_exchange() -> Proof:
     """The trap column as printed against the text before the table."""
-    table, text = table_counts(), text_counts()
+    table, text = document.table_counts(), document.text_counts()
     exchanged = dict(zip(table, reversed(table.values()), strict=True))
     return Proof(
         "the trap column of the table contradicts the text, and agrees with it once its two "
@@ -263,7 +263,7 @@ def deterministic_trials() -> Proof:
 def tool_only() -> Proof:
     """Arrangements in which the end effectors are clear and links are not."""
     case = nominal()
-    cores = replay_of(case, slave_plan(case)).cores()
+    cores = cores_of(replay_of(case, slave_plan(case)), case.layout)
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
         "there are arrangements in which both end effectors do what the figures show while links "
@@ -278,9 +278,9 @@ def layout_conflict() -> Proof:
     """Synchronous distance of the master's undisturbed track and the straight slave line."""
     case = nominal()
     master = master_undisturbed(case.layout, case.planner)
-    track = end_effector(placed_master(case.layout), master.path) - case.layout.master_base
+    track = end_effector(document.placed_master(case.layout), master.path) - case.layout.master_base
     share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
-    line = slave_start() + share * (slave_end() - slave_start())
+    line = document.slave_start() + share * (document.slave_end() - document.slave_start())
     sideways = [
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)

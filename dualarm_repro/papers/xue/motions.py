@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ...errors import InputError
 from ...planning.descent.compiled import plan_apf_compiled
 from ...planning.field.control_points import control_points
 from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.master_slave import at_tool_speed
 from ...planning.plan import Plan
-from ...planning.settings import APFSettings
-from ...planning.trials.encounter import inside_opening, instants, tips_apart, to_obstacles
+from ...planning.trials.encounter import to_obstacles
 from ...planning.trials.link_cores import LinkCores, link_cores
-from ...scene import JointPath, PlacedArm, Scene, facing
+from ...planning.trials.replay import Replay
+from ...planning.trials.runs import attempt
+from ...scene import JointPath, PlacedArm, Scene
 from ...tracking import memo
 from .document import Layout, placed_master, placed_slave, scene_of
 from .reading import Case, PlannerChoice, attraction_only, improved
@@ -28,16 +26,6 @@ PAIRS = {
     "master_window": ("master", "window"),
     "arms": ("master", "slave"),
 }
-
-
-def attempt(
-    placed: PlacedArm, start: np.ndarray, obstacles: Obstacles, settings: APFSettings
-) -> Plan | None:
-    """A plan to the goal of the arm, or None where its start touches an obstacle."""
-    try:
-        return plan_apf_compiled(placed, start, placed.goal, obstacles, settings)
-    except InputError:
-        return None
 
 
 @memo(512)
@@ -111,58 +99,23 @@ def window_obstacles(layout: Layout) -> Obstacles:
     return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))
 
 
-def flange_to_window(plan: Plan, layout: Layout) -> np.ndarray:
-    """Signed distance of the end effector to the nearest bar, (N,) [m]."""
-    return points_to_window(plan, layout, "end_effector")
-
-
-def points_to_window(plan: Plan, layout: Layout, points: str) -> np.ndarray:
+def points_to_window(plan: Plan, layout: Layout, points: str = "end_effector") -> np.ndarray:
     """Signed distance of the nearest control point to the nearest bar, (N,) [m]."""
     return to_obstacles(plan, points, window_obstacles(layout)).min(axis=1)
-
-
-def through_window(plan: Plan, layout: Layout) -> float:
-    """How far inside the opening the end effector passes the window; negative outside it [m]."""
-    size = (layout.window_opening_width, layout.window_opening_height)
-    return inside_opening(plan.tcp, layout.window_centre, facing(layout.normal), size)
-
-
-class Replay(NamedTuple):
-    """A motion of the slave beside that of the master."""
-
-    case: Case
-    slave: Plan
-    track: JointPath
-
-    @property
-    def layout(self) -> Layout:
-        """The arrangement."""
-        return self.case.layout
-
-    @property
-    def times(self) -> np.ndarray:
-        """Steps 0, 1, ... until both arms rest (T,)."""
-        return instants(self.slave, self.track)
-
-    def apart(self, *, moving: bool = False) -> np.ndarray:
-        """Distance of the end effectors until both arms rest, or while the slave moves [m]."""
-        return tips_apart(self.slave, placed_master(self.layout), self.track, moving=moving)
-
-    def to_window(self) -> np.ndarray:
-        """Signed distance of the slave's end effector to the nearest bar at every step [m]."""
-        return flange_to_window(self.slave, self.layout)
-
-    def cores(self, floor: float | None = None) -> LinkCores:
-        """Core distances of all links until both arms rest."""
-        paths = {"master": self.track, "slave": self.slave.joint_path()}
-        return link_cores(scene_of(self.layout, floor), paths, _CLOSE)
 
 
 @memo(512)
 def replay_of(case: Case, slave: Plan | None) -> Replay | None:
     """The slave's plan beside the master's track, or None where one of them is missing."""
     track = master_track(case)
-    return None if slave is None or track is None else Replay(case, slave, track)
+    if slave is None or track is None:
+        return None
+    return Replay(slave, placed_master(case.layout), track, window_obstacles(case.layout))
+
+
+def cores_of(replay: Replay, layout: Layout, floor: float | None = None) -> LinkCores:
+    """Core distances of all links until both arms rest."""
+    return link_cores(scene_of(layout, floor), replay.paths, _CLOSE)
 
 
 def smallest_cores(cores: LinkCores) -> dict[str, float]:

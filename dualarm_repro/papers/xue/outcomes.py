@@ -16,8 +16,8 @@ from ...ledger.comparison import Comparison
 from ...planning.descent.batch import perturbed
 from ...planning.descent.problem import PlanningProblem, problem
 from ...planning.settings import APFSettings
+from ...planning.trials.outcome import Outcome, outcome
 from ...planning.trials.runs import Runs, run_trials
-from ...planning.trials.stuck import held, stationary
 from .document import placed_slave
 from .motions import slave_obstacles
 from .reading import Case, improved, joint_term_only, traditional
@@ -72,28 +72,6 @@ VARIANTS: dict[str, Variant] = {
         "(13)-(16), virtual point always", partial(_improved, virtual_switching="always")
     ),
 }
-
-
-class Outcome(NamedTuple):
-    """Trials of one planner.
-
-    ``missed`` counts the runs that did not arrive, ``trapped`` those of them that were seen to
-    stand still, ``stationary`` those of these where the gradient is certified to vanish, and
-    ``held`` those that stay after small pushes too: a saddle does not hold an arm for good.
-    ``used`` and ``rescued``: the virtual point acted, and acted with success. ``gradient`` is the
-    largest |dU/dq| where a run stood still.
-    """
-
-    runs: int
-    missed: int
-    trapped: int
-    stationary: int
-    held: int
-    used: int
-    rescued: int
-    steps_reached: float
-    steps_all: float
-    gradient: float
 
 
 _DELICATE = "a descent along a crease amplifies round-off"
@@ -161,21 +139,5 @@ def run_variant(case: Case, name: str, begin: np.ndarray) -> Runs:
 
 
 def summary(case: Case, name: str, runs: Runs) -> Outcome:
-    """Counts and means of some runs; a mean over no run is NaN."""
-    made, last, gradient = VARIANTS[name].problem(case), runs.last[runs.stuck], runs.gradient
-    return Outcome(
-        runs=len(runs.reason),
-        missed=int((~runs.reached).sum()),
-        trapped=len(last),
-        stationary=int(stationary(made, last, gradient[runs.stuck]).sum()),
-        held=int(held(made, last, np.random.default_rng(0)).sum()),
-        used=int(runs.used.sum()),
-        rescued=int(runs.rescued.sum()),
-        steps_reached=_mean(runs.steps[runs.reached]),
-        steps_all=_mean(runs.steps),
-        gradient=float(gradient[runs.stuck].max(initial=0.0)),
-    )
-
-
-def _mean(values: np.ndarray) -> float:
-    return float(values.mean()) if len(values) else float("nan")
+    """Counts and means of some runs, each pushed in the same way where it stands still."""
+    return outcome(VARIANTS[name].problem(case), runs, np.random.default_rng(0))

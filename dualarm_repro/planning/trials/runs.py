@@ -6,11 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...errors import InputError
 from ...scene import PlacedArm
 from ..descent.batch import plan_batch
+from ..descent.compiled import plan_apf_compiled
 from ..descent.problem import PlanningProblem, problem
 from ..descent.termination import StopReason
 from ..field.obstacles import Obstacles
+from ..plan import Plan
 from ..settings import APFSettings
 
 #: Reason of a run whose start touches an obstacle.
@@ -55,6 +58,16 @@ class Runs(NamedTuple):
         for part, rows in zip(runs, new, strict=True):
             part[where] = rows
         return runs
+
+
+def attempt(
+    placed: PlacedArm, start: np.ndarray, obstacles: Obstacles, settings: APFSettings
+) -> Plan | None:
+    """A plan to the goal of the arm, or None where its start (nq,) touches an obstacle."""
+    try:
+        return plan_apf_compiled(placed, start, placed.goal, obstacles, settings)
+    except InputError:
+        return None
 
 
 def touching(made: PlanningProblem, starts: np.ndarray) -> np.ndarray:

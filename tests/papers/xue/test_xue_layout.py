@@ -1,26 +1,20 @@
-"""Printed inputs, the arrangement, and postures of the slave."""
+"""Printed inputs and the arrangement."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from dualarm_repro.papers.xue.document import (
-    arms_of,
     gains,
     master_goal,
     master_start,
     placed_slave,
-    posture,
     slave_end,
     slave_start,
     workspace_points,
 )
 from dualarm_repro.papers.xue.reading import nominal
-
-SLAVE = arms_of("matrices")[1]
 
 
 def test_inputs_are_those_of_print(registry):
@@ -39,29 +33,6 @@ def test_slave_starts_and_ends_where_printed(registry):
     for q, point in ((slave.start, slave_start()), (slave.goal, slave_end())):
         reached = slave.placement.act(slave.arm.fk(q)[:3, 3])
         np.testing.assert_allclose(reached, point, atol=1e-12)
-
-
-@given(
-    st.floats(0.6, 1.8), st.floats(-np.pi, np.pi), st.floats(-0.6, 1.0),
-    st.sampled_from(["radial_horizontal", "tool_down", "nearest_branch"]),
-)  # fmt: skip
-def test_posture_reaches_the_point_with_the_tool_as_asked(radius, azimuth, height, choice):
-    point = np.array([radius * np.cos(azimuth), radius * np.sin(azimuth), height])
-    q = posture(SLAVE, point, choice)
-    if q is None:
-        return
-    pose = SLAVE.fk(q)
-    np.testing.assert_allclose(pose[:3, 3], point, atol=1e-9)
-    level = np.array([point[0], point[1], 0.0]) / radius
-    wanted = np.array([0.0, 0.0, -1.0]) if choice == "tool_down" else level
-    np.testing.assert_allclose(pose[:3, 2], wanted, atol=1e-9)
-    assert q[5] == 0.0
-    if choice != "nearest_branch":
-        assert abs(q[3]) <= 0.5 * np.pi + 1e-9
-
-
-def test_posture_out_of_reach_is_none():
-    assert posture(SLAVE, np.array([3.0, 0.0, 0.0]), "radial_horizontal") is None
 
 
 def test_far_base_leaves_no_slave(registry):

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dualarm_repro.papers.xue.document import placed_slave, posture
+from dualarm_repro.arms.tool_postures import tool_posture
+from dualarm_repro.papers.xue.document import placed_slave
 from dualarm_repro.papers.xue.motions import slave_obstacles
 from dualarm_repro.papers.xue.outcomes import (
     VARIANTS,
@@ -73,7 +74,9 @@ def test_a_wall_holds_an_arm_against_pushes(case):
 
 def test_a_perturbed_start_that_touches_a_bar_is_named_and_counted(case):
     arm, base = placed_slave(case.layout).arm, case.layout.slave_base
-    inside = [posture(arm, bar.center - base, "radial_horizontal") for bar in case.layout.window()]
+    inside = [
+        tool_posture(arm, bar.center - base, "radial_horizontal") for bar in case.layout.window()
+    ]
     begin = np.array([q for q in inside if q is not None])
     assert len(begin), "the middle of some bar is within reach"
     runs = run_variant(case, "traditional", begin)

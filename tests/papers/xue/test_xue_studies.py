@@ -41,7 +41,7 @@ def test_lottery_draws_satisfy_fig_9(registry):
     case, draws, _ = lottery.random_case(0.15, rng)
     assert draws >= 1
     replay = replay_of(case, slave_undisturbed(case.layout, case.planner))
-    assert replay.to_window().min() <= 0.0
+    assert replay.to_obstacles().min() <= 0.0
     assert replay.apart(moving=True).min() <= 0.15
     assert not lottery.repelled_at_goal(case)
 

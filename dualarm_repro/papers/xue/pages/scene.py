@@ -20,7 +20,9 @@ from ....ledger import (
     Rounds,
 )
 from ....planning.field.control_points import end_effector
-from ....scene import JointPath, facing
+from ....planning.trials.speeds import largest_joint_step, mean_advance
+from ....scene import facing
+from ....view.replays import add_stage
 from ....view.scene3d import Scene3D
 from ....view.style import BLACK, GREEN, ORANGE
 from ....view.tracks import tracks_figure
@@ -30,9 +32,6 @@ from ..motions import master_track, slave_undisturbed
 from ..reading import improved, nominal, traditional
 
 checks = partial(REGISTRY.checks, page="xue/scene")
-
-_CAMERA = (3.4, -1.6, 2.6)
-_BAR = "#9A9A9A"
 
 
 @checks(
@@ -51,10 +50,6 @@ def window(assumed: Assumed) -> Result:
     origin, centre, bars = layout.frame_origin, layout.window_centre, layout.window()
     middle = np.mean([bar.center for bar in bars], axis=0)
     sides = (np.array([start, end]) - centre) @ facing(layout.normal)[:, 2]
-
-    def scene() -> Scene3D:
-        return stage("The window with Start (green), End (black) and the virtual point.", layout)
-
     return Result(
         obtained={
             "start": (start - origin).tolist(),
@@ -62,7 +57,7 @@ def window(assumed: Assumed) -> Result:
             "off_centre": float(abs(middle - centre).max()),
             "between": bool(sides[0] * sides[1] < 0.0),
             "centre": centre.tolist(),
-            "opening": [layout.window_opening_width, layout.window_opening_height],
+            "opening": list(layout.opening),
         },
         caption=(
             f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, "
@@ -79,7 +74,9 @@ def window(assumed: Assumed) -> Result:
         figure=lambda: tracks_figure(
             bars, [], {"Start": start, "End": end, "virtual point": centre}, elev=18, azim=-60
         ),
-        scene=scene,
+        scene=lambda: stage(
+            "The window with Start (green), End (black) and the virtual point.", layout
+        ),
     )
 
 
@@ -161,8 +158,8 @@ def equal_speed(assumed: Assumed) -> Result:
     )
     track, slave = master_track(case), slave_undisturbed(case.layout, case.planner)
     flange = end_effector(placed_master(case.layout), track.configurations)
-    tools = (_mean_step(flange, track.index), slave.tcp_length / slave.steps)
-    joints = (_largest_step(track), _largest_step(slave.joint_path()))
+    tools = (mean_advance(flange, track.index), slave.tcp_length / slave.steps)
+    joints = (largest_joint_step(track), largest_joint_step(slave.joint_path()))
     pairs = {"same_step": joints, "same_tool_speed": tools}
     differences = {sense: abs(a - b) / max(a, b) for sense, (a, b) in pairs.items()}
     senses = {
@@ -187,26 +184,9 @@ def equal_speed(assumed: Assumed) -> Result:
     )
 
 
-def _largest_step(track: JointPath) -> float:
-    """Largest joint displacement per instant [rad]."""
-    steps = np.linalg.norm(np.diff(track.configurations, axis=0), axis=1) / np.diff(track.index)
-    return float(steps.max())
-
-
-def _mean_step(points: np.ndarray, index: np.ndarray) -> float:
-    """Length of a track over the instants it takes [m]."""
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() / index[-1])
-
-
 def stage(title: str, layout: Layout) -> Scene3D:
     """The window, Start and End of the slave, and the virtual point."""
-    made = Scene3D(title, camera=_CAMERA, height=480)
-    for k, bar in enumerate(layout.window()):
-        pose = np.eye(4)
-        pose[:3] = bar.pose
-        made.add_box(f"bar {k}", bar.size, pose, _BAR)
-    start, end = layout.slave_points()
-    made.add_sphere("Start", start, 0.04, GREEN)
-    made.add_sphere("End", end, 0.04, BLACK)
-    made.add_sphere("virtual point", layout.window_centre, 0.03, ORANGE)
-    return made
+    made, (start, end) = Scene3D(title, (3.4, -1.6, 2.6), 480), layout.slave_points()
+    marks = {"Start": (start, 0.04, GREEN), "End": (end, 0.04, BLACK)}
+    marks["virtual point"] = (layout.window_centre, 0.03, ORANGE)
+    return add_stage(made, layout.window(), marks)

@@ -13,7 +13,7 @@ from ....ledger.shares import Share
 from ....planning.trials.link_cores import LinkCores
 from ....view.shares import curve_figure
 from ..document import lengths
-from ..motions import PAIRS, largest_radius, replay_of, slave_plan, smallest_cores
+from ..motions import PAIRS, cores_of, largest_radius, replay_of, slave_plan, smallest_cores
 from ..outcomes import VARIANTS
 from ..reading import Case, nominal
 from ..stored import choice, clear_share, is_declared, successful
@@ -44,7 +44,7 @@ def only_end_effectors(assumed: Assumed) -> Result:
     floor = case.layout.master_base_z - lengths("published")["d1"]
     cores, apart = None, None
     if replay is not None:
-        cores, apart = replay.cores(floor), float(replay.apart().min())
+        cores, apart = cores_of(replay, case.layout, floor), float(replay.apart().min())
     ends = successful()
     posture_hits = Share.of(
         (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum(), len(ends)

@@ -11,6 +11,7 @@ import pandas as pd
 from ....arms import Arm
 from ....arms.occupancy import Occupancy, occupancy, rotation_volumes
 from ....arms.overlap import Overlap, overlap
+from ....arms.reach import symmetric_bases
 from ....arms.workspace import extents, sample_workspace, voxel_volume
 from ....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
 from ....tracking import memo
@@ -20,7 +21,6 @@ from ....view.style import MASTER, SLAVE
 from ..document import (
     SEED,
     arm_in_use,
-    base_placements,
     master_start,
     reach,
     robot,
@@ -48,7 +48,7 @@ def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
 def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
     """Overlap of master and mirrored slave."""
     master = arm_in_use(joint_ranges, upper_arm)
-    left, right = base_placements(distance)
+    left, right = symmetric_bases(distance)
     slave = _slave(master)
     maps = (_reached(master), _reached(slave))
     return overlap((master, left), (slave, right), seed=SEED, points=_TEST_POINTS, maps=maps)
@@ -150,7 +150,7 @@ def both_clouds(assumed: Assumed) -> Result:
     distance, count = assumed["base_distance"], int(assumed["cloud_points"])
     master = arm_in_use(ranges, upper_arm)
     slave = _slave(master)
-    left, right = base_placements(distance)
+    left, right = symmetric_bases(distance)
     common = common_workspace(ranges, upper_arm, distance)
     shares = (common.first_in_second, common.second_in_first)
 

@@ -18,9 +18,8 @@ from ....errors import LedgerError
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ....ledger.streams import stream
-from ....planning.trials.runs import touching
+from ....planning.trials.runs import attempt, touching
 from ....tracking import memo
-from ..motions import attempt
 from ..outcomes import DESCENTS, TRIALS, VARIANTS, starts
 from ..reading import KEPT, nominal
 from .lottery import LAYOUTS, LOTTERY, RANGES, draw

@@ -14,19 +14,9 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
+from ....planning.trials.runs import attempt
+from .. import motions
 from ..document import Layout, assumption, slave_end, slave_start
-from ..motions import (
-    attempt,
-    flange_to_window,
-    master_plan,
-    master_undisturbed,
-    points_to_window,
-    replay_of,
-    slave_obstacles,
-    slave_plan,
-    slave_undisturbed,
-    smallest_cores,
-)
 from ..outcomes import DESCENTS, TRIALS, VARIANTS, outcomes, starts
 from ..reading import KEPT, Case, nominal
 
@@ -53,7 +43,7 @@ def draw(rng: np.random.Generator, given: Case) -> Layout:
     ``master_about_meeting`` along each axis. The slave stands beside it.
     """
     like = given.layout
-    master = master_undisturbed(like, given.planner).tcp - like.master_base
+    master = motions.master_undisturbed(like, given.planner).tcp - like.master_base
     k = int(rng.integers(len(master)))
     share = min(k / RANGES["undisturbed_steps"], 1.0)
     about = RANGES["master_about_meeting"]
@@ -82,12 +72,12 @@ def fig_9_holds(case: Case, meeting: float) -> bool:
     layout = case.layout
     if layout.base_distance < RANGES["smallest_base_distance"]:
         return False
-    slave = slave_undisturbed(layout, case.planner)
-    if slave is None or not slave.reached or flange_to_window(slave, layout).min() > 0.0:
+    slave = motions.slave_undisturbed(layout, case.planner)
+    if slave is None or not slave.reached or motions.points_to_window(slave, layout).min() > 0.0:
         return False
-    if points_to_window(slave, layout, case.planner.control_points)[[0, -1]].min() <= 0.0:
+    if motions.points_to_window(slave, layout, case.planner.control_points)[[0, -1]].min() <= 0.0:
         return False
-    replay = replay_of(case, slave)
+    replay = motions.replay_of(case, slave)
     return replay is not None and bool(replay.apart(moving=True).min() <= meeting)
 
 
@@ -121,30 +111,32 @@ def lottery_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[
 def motion_row(case: Case) -> dict[str, Any]:
     """Figs 8, 10 and 11 in one arrangement: ends, distances of points and of link cores [m]."""
     layout, planner = case.layout, case.planner
-    first, slave = master_plan(layout, planner), slave_plan(case)
-    undisturbed = master_undisturbed(layout, planner)
+    first, slave = motions.master_plan(layout, planner), motions.slave_plan(case)
+    undisturbed = motions.master_undisturbed(layout, planner)
     row: dict[str, Any] = {
         "master_steps": first.steps,
-        "master_distance": points_to_window(first, layout, planner.control_points).min(),
-        "master_undisturbed": points_to_window(undisturbed, layout, planner.control_points).min(),
+        "master_distance": motions.points_to_window(first, layout, planner.control_points).min(),
+        "master_undisturbed": motions.points_to_window(
+            undisturbed, layout, planner.control_points
+        ).min(),
         "slave_reason": "start-collides" if slave is None else str(slave.reason),
     }
     if slave is None:
         return row
-    replay = replay_of(case, slave)
-    cores = replay.cores()
+    replay = motions.replay_of(case, slave)
+    cores = motions.cores_of(replay, layout)
     to_bars = cores.between("slave", "window")
     settings = VARIANTS["traditional"].settings(case)
-    traditional = attempt(slave.placed, slave.placed.start, slave_obstacles(case), settings)
+    traditional = attempt(slave.placed, slave.placed.start, motions.slave_obstacles(case), settings)
     return row | {
         "slave_steps": slave.steps,
         "slave_length": slave.length,
         "traditional_reached": traditional is not None and traditional.reached,
         "traditional_length": np.nan if traditional is None else traditional.length,
         "slave_points": slave.clearance.min(),
-        "slave_flange_window": replay.to_window().min(),
+        "slave_flange_window": replay.to_obstacles().min(),
         "flanges_apart": replay.apart().min(),
-        **{f"cores_{name}": value for name, value in smallest_cores(cores).items()},
+        **{f"cores_{name}": value for name, value in motions.smallest_cores(cores).items()},
         "cores_start": to_bars[0],
         "cores_goal": to_bars[-1],
         "nearest_link": cores.nearest("slave", "window")[0],

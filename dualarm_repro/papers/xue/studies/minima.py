@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
 
 from ....arms import load_arm
 from ....ledger import REGISTRY, Study
 from ....ledger.comparison import Comparison
-from ....planning.field.potentials import JointAttraction, PositionAttraction, Sum
+from ....planning.trials.free_minima import free_minima
 from ....scene import PlacedArm
 from ..document import gains
 
@@ -27,32 +26,10 @@ MINIMUM = 1e-7
 
 def minima_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Descents from random starts to random goals; how many rest in a minimum elsewhere."""
-    arm, weight = load_arm("es165d"), settings["weight"]
-    placed = PlacedArm("arm", arm)
-    trapped = flat = 0
-    for start, goal in zip(*(arm.random_configurations(PAIRS, rng) for _ in range(2)), strict=True):
-        field = Sum(
-            [
-                PositionAttraction(placed, arm.positions(goal), gains()["k_a"]),
-                JointAttraction(goal, gains()["k_a"] * weight),
-            ]
-        )
-        end = _descend(field, start)
-        if np.abs(end - goal).max() > ARRIVED:
-            trapped += 1
-            flat += bool(np.linalg.norm(field.gradient(end)) <= MINIMUM)
-    return {"pairs": PAIRS, "elsewhere": trapped, "minima": flat}
-
-
-def _descend(field: Sum, start: np.ndarray) -> np.ndarray:
-    """End of a quasi-Newton descent, restarted until it no longer moves."""
-    q = start
-    for _ in range(5):
-        found = minimize(field.value, q, jac=field.gradient, method="BFGS", options={"gtol": 1e-10})
-        if np.abs(found.x - q).max() < 1e-6:
-            break
-        q = found.x
-    return found.x
+    chosen = gains()["k_a"], settings["weight"], PAIRS
+    placed = PlacedArm("arm", load_arm("es165d"))
+    found = free_minima(placed, *chosen, rng, arrived=ARRIVED, flat=MINIMUM)
+    return {"pairs": PAIRS, **found._asdict()}
 
 
 def _cells() -> list[dict[str, Any]]:

@@ -16,17 +16,10 @@ import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
+from ....planning.trials.encounter import inside_opening
+from ....scene import facing
+from .. import motions
 from ..document import METHODS_OF_TABLE_2, Layout, assumption, gains, text_counts
-from ..motions import (
-    flange_to_window,
-    master_undisturbed,
-    points_to_window,
-    replay_of,
-    slave_plan,
-    slave_undisturbed,
-    smallest_cores,
-    through_window,
-)
 from ..outcomes import TRIALS, run_variants, starts
 from ..reading import KEPT, Case, nominal
 from .lottery import draw, fig_9_holds
@@ -69,28 +62,30 @@ def margins(case: Case) -> dict[str, float]:
     arrives through the opening, its links clear of bars and master. Start and End are out of range.
     """
     layout, planner = case.layout, case.planner
-    slave = slave_undisturbed(layout, planner)
+    slave = motions.slave_undisturbed(layout, planner)
     if slave is None or not slave.reached:
         return {"fig_9": -10.0}
-    ends = points_to_window(slave, layout, planner.control_points)[[0, -1]]
-    undisturbed = master_undisturbed(layout, planner)
-    nearest = points_to_window(undisturbed, layout, planner.control_points).min()
+    ends = motions.points_to_window(slave, layout, planner.control_points)[[0, -1]]
+    undisturbed = motions.master_undisturbed(layout, planner)
+    nearest = motions.points_to_window(undisturbed, layout, planner.control_points).min()
     found = {
-        "enters_bar": -flange_to_window(slave, layout).min() - DEMANDS["bar_entered_by"],
+        "enters_bar": -motions.points_to_window(slave, layout).min() - DEMANDS["bar_entered_by"],
         "ends_out_of_range": ends.min() - gains()["d_0"],
         "avoidance_needed": DEMANDS["master_without"] - nearest,
     }
-    replay = replay_of(case, slave)
+    replay = motions.replay_of(case, slave)
     if replay is None:
         return found | {"fig_8": -5.0}
     found["meets"] = DEMANDS["meeting"] - replay.apart(moving=True).min()
-    plan = slave_plan(case)
+    plan = motions.slave_plan(case)
     if plan is None or not plan.reached:
         return found | {"fig_11": -3.0}
-    cores = smallest_cores(replay_of(case, plan).cores())
+    cores = motions.smallest_cores(motions.cores_of(motions.replay_of(case, plan), layout))
     radius = DEMANDS["radius"]
+    facing_it = facing(layout.normal)
+    opening = inside_opening(plan.tcp, layout.window_centre, facing_it, layout.opening)
     return found | {
-        "through": max(through_window(plan, layout), -1.0),
+        "through": max(opening, -1.0),
         "slave_clear": cores["slave_window"] - radius,
         "master_clear": cores["master_window"] - radius,
         "arms_clear": 0.5 * cores["arms"] - radius,

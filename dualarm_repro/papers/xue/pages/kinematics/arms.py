@@ -10,23 +10,18 @@ import pinocchio as pin
 import sympy as sp
 
 from .....arms import load_arm
+from .....arms.exact_chain import chain_product, same_function
+from .....arms.joint_axes import axis_spread, common_origins, joint_frames
+from .....arms.reach import symmetric_bases
 from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
-from .....view.arm_drawings import dimension_drawing, frames_figure, stick_figure
+from .....view.arm_drawings import frames_figure, stick_figure
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
+from .....view.upright_arm import upright_drawing
 from ....wording import point
-from ...document import SEED, base_placements, lengths, master_goal, master_start, placed_master
+from ...document import SEED, lengths, master_goal, master_start, placed_master
 from ...reading import nominal
-from .printed_chain import (
-    LINKS,
-    SHARED,
-    equal,
-    joint_variable,
-    link_matrix,
-    printed_lengths,
-    product,
-    substituted,
-)
+from . import printed_chain as chain
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
 
@@ -44,19 +39,20 @@ checks = partial(REGISTRY.checks, page="xue/kinematics")
 )
 def dimensions(assumed: Assumed) -> Result:
     """Side view of the published robot, with the lengths the matrices share with it."""
-    printed, published = printed_lengths(), lengths("published")
+    printed, published = chain.printed_lengths(), lengths("published")
     differences = {name: published[name] - printed[name] for name in printed}
+    shared = ", ".join(chain.SHARED)
     table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
     return Result(
         obtained={
             "published": published,
             "matrices": printed,
-            "shared_difference": max(abs(differences[name]) for name in SHARED),
+            "shared_difference": max(abs(differences[name]) for name in chain.SHARED),
         },
         table=table.reset_index(),
         caption=(
             "Published ES165D in the maker's upright posture. The matrices share "
-            f"{', '.join(SHARED)} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
+            f"{shared} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
             f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The "
             "text edition carries no number of the drawing, so there is nothing to compare it with."
         ),
@@ -64,7 +60,7 @@ def dimensions(assumed: Assumed) -> Result:
             "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
             "to the flange, with six dimension lines in millimetres."
         ),
-        figure=lambda: _draw_dimensions(published),
+        figure=lambda: upright_drawing(published),
     )
 
 
@@ -79,14 +75,16 @@ def dimensions(assumed: Assumed) -> Result:
 def link_frames(assumed: Assumed) -> Result:
     """Frames 0 to 6 of the matrices at q = 0."""
     arm = load_arm("es165d")
-    frames = np.array([np.eye(4), *_joint_frames(master_start())])
-    turned = [_joint_frames(_unit(k, 0.7))[k] for k in range(arm.nq)]
+    frames = np.array([np.eye(4), *joint_frames(arm, master_start())])
+    turned = [joint_frames(arm, 0.7 * unit)[k] for k, unit in enumerate(np.eye(arm.nq))]
     error = max(
         float(abs(pin.log3(frames[k + 1, :3, :3].T @ turned[k][:3, :3]) - [0, 0, 0.7]).max())
         for k in range(arm.nq)
     )
-    table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=_frame_columns())
+    columns = [f"{axis}{row}" for row in "xyz" for axis in ("n", "o", "a", "p")]
+    table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=columns)
     table.insert(0, "frame", range(7))
+    shared = "; ".join(" and ".join(map(str, group)) for group in common_origins(frames))
     return Result(
         obtained={
             "origins": frames[:, :3, 3].tolist(),
@@ -97,7 +95,7 @@ def link_frames(assumed: Assumed) -> Result:
         caption=(
             "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm "
             f"hangs down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common "
-            f"origin: {_common_origins(frames)}. The drawing is not in the text edition."
+            f"origin: {shared}. The drawing is not in the text edition."
         ),
         alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
         figure=lambda: frames_figure(frames, 0.25),
@@ -118,7 +116,7 @@ def both_arms(assumed: Assumed) -> Result:
     posture = assumed["display_posture"]
     q = {"start": master_start(), "goal": master_goal()}[posture]
     master, slave = load_arm("es165d"), load_arm("es165d-slave")
-    left, right = base_placements(distance)
+    left, right = symmetric_bases(distance)
     arms = {"master": (master, q, left), "slave": (slave, -q, right)}
     flip = np.array([1.0, -1.0, 1.0])
     tips = {name: place.act(arm.fk(pose)[:3, 3]) for name, (arm, pose, place) in arms.items()}
@@ -155,13 +153,19 @@ def both_arms(assumed: Assumed) -> Result:
 )
 def spherical_wrist(assumed: Assumed) -> Result:
     """Axes 4, 5 and 6 pass through one point: in symbols, and in Pinocchio at random poses."""
-    frames = [product([link_matrix(k) for k in range(1, last + 1)]) for last in (4, 5, 6)]
+    frames = [
+        chain_product([chain.link_matrix(k) for k in range(1, last + 1)]) for last in (4, 5, 6)
+    ]
     wrist, same, sixth = (frame[:3, 3] for frame in frames)
     # Axis 6 is the z axis of frame 6, whose origin lies d_6 further out along it.
-    reach = link_matrix(6)[1, 3]
+    reach = chain.link_matrix(6)[1, 3]
     back = sixth - reach * frames[2][:3, 2]
-    meets = equal(sp.Matrix(wrist), sp.Matrix(same)) and equal(sp.Matrix(wrist), sp.Matrix(back))
-    spread = _axis_spread()
+    meets = same_function(sp.Matrix(wrist), sp.Matrix(same)) and same_function(
+        sp.Matrix(wrist), sp.Matrix(back)
+    )
+    arm = load_arm("es165d")
+    poses = arm.random_configurations(1000, np.random.default_rng(SEED))
+    spread = axis_spread(arm, (4, 5, 6), 5, poses)
     return Result(
         obtained={"origins_coincide": meets, "spread": spread},
         caption=(
@@ -183,7 +187,8 @@ def mirror(assumed: Assumed) -> Result:
     """With M = diag(1, -1, 1, 1): negating alpha and theta turns every T_i into M T_i M."""
     M = sp.diag(1, -1, 1, 1)
     symbolic = all(
-        substituted(k, corrected=True, mirrored=True).equals(M * link_matrix(k) * M) for k in LINKS
+        chain.substituted(k, corrected=True, mirrored=True).equals(M * chain.link_matrix(k) * M)
+        for k in chain.LINKS
     )
     master, slave = load_arm("es165d"), load_arm("es165d-slave")
     q = master.random_configurations(1000, np.random.default_rng(SEED))
@@ -232,72 +237,10 @@ def goal_of_master(assumed: Assumed) -> Result:
     )
 
 
-def _axis_spread() -> float:
-    """Largest distance from the wrist point to axes 4, 5 and 6 over random poses."""
-    arm = load_arm("es165d")
-    data = arm.model.createData()
-    largest = 0.0
-    for q in arm.random_configurations(1000, np.random.default_rng(SEED)):
-        pin.forwardKinematics(arm.model, data, q)
-        wrist = data.oMi[5].translation
-        for joint in (4, 5, 6):
-            placement = data.oMi[joint]
-            offset = np.cross(wrist - placement.translation, placement.rotation[:, 2])
-            largest = max(largest, float(np.linalg.norm(offset)))
-    return largest
-
-
-def _joint_frames(q: np.ndarray) -> list[np.ndarray]:
-    """Link frames 1 to 6 of the modified DH chain."""
-    arm = load_arm("es165d")
-    data = arm.model.createData()
-    pin.forwardKinematics(arm.model, data, q)
-    return [data.oMi[k].homogeneous for k in range(1, arm.nq + 1)]
-
-
 def _printed_frames(q: np.ndarray) -> np.ndarray:
     """Frames 0 to 6 as products of matrices (2)-(7)."""
     frames = [np.eye(4)]
-    for k in LINKS:
-        link = link_matrix(k).subs(joint_variable(k), q[k - 1])
+    for k in chain.LINKS:
+        link = chain.link_matrix(k).subs(chain.joint_variable(k), q[k - 1])
         frames.append(frames[-1] @ np.array(link, dtype=float))
     return np.array(frames)
-
-
-def _common_origins(frames: np.ndarray) -> str:
-    groups: dict[tuple[float, ...], list[str]] = {}
-    for number, frame in enumerate(frames):
-        groups.setdefault(tuple(frame[:3, 3].round(9) + 0.0), []).append(str(number))
-    return "; ".join(" and ".join(group) for group in groups.values() if len(group) > 1)
-
-
-def _unit(k: int, angle: float) -> np.ndarray:
-    q = np.zeros(6)
-    q[k] = angle
-    return q
-
-
-def _frame_columns() -> list[str]:
-    return [f"{axis}{row}" for row in "xyz" for axis in ("n", "o", "a", "p")]
-
-
-def _draw_dimensions(size: dict[str, float]) -> object:
-    """Skeleton in the maker's upright posture, drawn from the lengths alone."""
-    base, axis_s = np.array([0.0, 0.0]), np.array([0.0, size["d1"]])
-    axis_l = axis_s + np.array([size["a1"], 0.0])
-    axis_u = axis_l + np.array([0.0, size["a2"]])
-    corner = axis_u + np.array([0.0, size["a3"]])
-    wrist = corner + np.array([size["d4"], 0.0])
-    flange = wrist + np.array([size["d6"], 0.0])
-    outline = np.array([base, axis_s, axis_l, axis_u, corner, wrist, flange])
-    return dimension_drawing(
-        outline,
-        [
-            ("d1", base, axis_s, (-0.25, 0.0)),
-            ("a1", axis_s, axis_l, (0.0, -0.15)),
-            ("a2", axis_l, axis_u, (0.25, 0.0)),
-            ("a3", axis_u, corner, (-0.25, 0.0)),
-            ("d4", corner, wrist, (0.0, 0.15)),
-            ("d6", wrist, flange, (0.0, -0.15)),
-        ],
-    )

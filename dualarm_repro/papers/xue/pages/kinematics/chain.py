@@ -6,32 +6,18 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
-import pinocchio as pin
 import sympy as sp
 
 from .....arms import load_arm
+from .....arms.exact_chain import chain_product, craig_transform, evaluated, same_function
+from .....arms.joint_axes import joint_placements
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role, Rounds
 from .....ledger.formula import parse
 from .....tracking import memo
 from ....wording import point
 from ...document import READINGS, SEED, master_goal, master_start, reach
-from .printed_chain import (
-    ALPHA,
-    LINKS,
-    THETA,
-    A,
-    D,
-    equal,
-    general_matrix,
-    joint_variable,
-    link_matrix,
-    printed_parameters,
-    product,
-    substituted,
-    table_parameters,
-    table_pose,
-)
+from . import printed_chain as chain
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
 #: Configurations at which (8) is multiplied out as printed.
@@ -62,14 +48,17 @@ _EXACT = {"tolerance": 1e-12, "reason": "parameters of one chain, exact"}
 )
 def table_1(assumed: Assumed) -> Result:
     """Table 1 against the parameters recovered from the matrices, and the two goal poses."""
-    parameters, column = printed_parameters(), table_parameters()["a"]
+    parameters, column = chain.printed_parameters(), chain.table_parameters()["a"]
     shifted = [*parameters["a"][1:], 0.0]
     goal = master_goal()[np.newaxis]
-    goals = {"matrices": symbolic_poses(goal)[0, :3, 3], "table": table_pose(master_goal())[:3, 3]}
+    goals = {
+        "matrices": symbolic_poses(goal)[0, :3, 3],
+        "table": chain.table_pose(master_goal())[:3, 3],
+    }
     distance = float(np.linalg.norm(goals["matrices"] - goals["table"]))
     table = pd.DataFrame(
         {
-            "link": list(LINKS),
+            "link": list(chain.LINKS),
             "a_printed": REGISTRY.printed("xue.tab01")["a"],
             "a_matrices": parameters["a"],
             "d_matrices": parameters["d"],
@@ -117,32 +106,27 @@ def table_1(assumed: Assumed) -> Result:
 def general_transform(assumed: Assumed) -> Result:
     """Equation (1) as printed and corrected, against the six matrices."""
     counts = {
-        corrected: sum(equal(substituted(k, corrected=corrected), link_matrix(k)) for k in LINKS)
+        corrected: sum(
+            same_function(chain.substituted(k, corrected=corrected), chain.link_matrix(k))
+            for k in chain.LINKS
+        )
         for corrected in (False, True)
     }
     return Result(
         obtained={
-            "is_product": equal(general_matrix(corrected=True), _product_of_screws()),
+            "is_product": same_function(
+                chain.general_matrix(corrected=True),
+                craig_transform(chain.ALPHA, chain.A, chain.THETA, chain.D),
+            ),
             "links_as_printed": counts[False],
             "links_with_alpha": counts[True],
-            "only_with_alpha": counts[False] < counts[True] == len(LINKS),
+            "only_with_alpha": counts[False] < counts[True] == len(chain.LINKS),
         },
         caption=(
             f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist "
             f"angle alpha in place of the length a inside sine and cosine it gives {counts[True]}."
         ),
     )
-
-
-def _product_of_screws() -> sp.Matrix:
-    """Rx(alpha) Tx(a) Rz(theta) Tz(d), the definition that (1) spells out."""
-
-    def screw(turn: sp.Matrix, shift: list[sp.Expr]) -> sp.Matrix:
-        upper = turn.row_join(sp.Matrix(shift))
-        return upper.col_join(sp.Matrix([[0, 0, 0, 1]]))
-
-    about_x, about_z = sp.rot_ccw_axis1(ALPHA), sp.rot_ccw_axis3(THETA)
-    return screw(about_x, [A, 0, 0]) * screw(about_z, [0, 0, D])
 
 
 def _register_link(k: int) -> None:
@@ -157,12 +141,12 @@ def _register_link(k: int) -> None:
         ],
     )
     def link_transform(assumed: Assumed) -> Result:
-        arm, printed = load_arm("es165d"), link_matrix(k)
+        arm, printed = load_arm("es165d"), chain.link_matrix(k)
         difference = _largest_difference_to_pinocchio(k)
         return Result(
             obtained={
-                "equals_eq_1": equal(substituted(k, corrected=True), printed),
-                "equals_dh": equal(arm.link_transforms()[k - 1], printed),
+                "equals_eq_1": same_function(chain.substituted(k, corrected=True), printed),
+                "equals_dh": same_function(arm.link_transforms()[k - 1], printed),
                 "pinocchio": difference,
             },
             caption=(
@@ -172,7 +156,7 @@ def _register_link(k: int) -> None:
         )
 
 
-for _k in LINKS:
+for _k in chain.LINKS:
     _register_link(_k)
 
 
@@ -202,7 +186,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
     start, goal = (arm.fk(pose)[:3, 3] for pose in (master_start(), master_goal()))
     return Result(
         obtained={
-            "product_is_dh": equal(symbolic_pose(), arm.symbolic_fk()),
+            "product_is_dh": same_function(symbolic_pose(), arm.symbolic_fk()),
             "names": _names_entries(REGISTRY.printed("xue.eq08")["matrix"]),
             "formula": float(abs(printed_product(q[:_FORMULA]) - pinocchio[:_FORMULA]).max()),
             "pinocchio": float(abs(symbolic - pinocchio).max()),
@@ -223,7 +207,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
 @memo()
 def symbolic_pose() -> sp.Matrix:
     """T(q) as the product of the printed matrices (2)-(7)."""
-    return product([link_matrix(k) for k in LINKS])
+    return chain_product([chain.link_matrix(k) for k in chain.LINKS])
 
 
 def _names_entries(matrix: list[list[str]]) -> bool:
@@ -239,19 +223,18 @@ def _names_entries(matrix: list[list[str]]) -> bool:
 
 def symbolic_poses(q: np.ndarray) -> np.ndarray:
     """The printed product evaluated at configurations (N, 6), shape (N, 4, 4)."""
-    variables = [joint_variable(k) for k in LINKS]
-    entries = sp.lambdify(variables, list(symbolic_pose()), "numpy", cse=True)(*q.T)
-    columns = [np.broadcast_to(entry, len(q)) for entry in entries]
-    return np.stack(columns, axis=1).reshape(-1, 4, 4)
+    return evaluated(symbolic_pose(), [chain.joint_variable(k) for k in chain.LINKS], q)
 
 
 def printed_product(q: np.ndarray) -> np.ndarray:
     """Right side of (8) at configurations (N, 6), (N, 4, 4); NaN if it asks for other factors."""
-    links = [sp.lambdify(joint_variable(k), link_matrix(k), "numpy") for k in LINKS]
+    links = [
+        sp.lambdify(chain.joint_variable(k), chain.link_matrix(k), "numpy") for k in chain.LINKS
+    ]
     formula = parse(REGISTRY.printed("xue.eq08")["formula"])
     found = []
     for row in q:
-        given = {f"T_{k - 1}{k}": links[k - 1](row[k - 1]) for k in LINKS}
+        given = {f"T_{k - 1}{k}": links[k - 1](row[k - 1]) for k in chain.LINKS}
         try:
             found.append(np.broadcast_to(formula.value(1, given), (4, 4)))
         except (DataFileError, IndexError, ValueError):
@@ -261,13 +244,6 @@ def printed_product(q: np.ndarray) -> np.ndarray:
 
 def _largest_difference_to_pinocchio(k: int) -> float:
     """Printed link transform against the placement of joint k in the model, over a turn."""
-    arm = load_arm("es165d")
-    data = arm.model.createData()
-    printed = sp.lambdify(joint_variable(k), link_matrix(k), "numpy")
-    largest = 0.0
-    for angle in np.linspace(-np.pi, np.pi, 37):
-        q = np.zeros(arm.nq)
-        q[k - 1] = angle
-        pin.forwardKinematics(arm.model, data, q)
-        largest = max(largest, float(abs(data.liMi[k].homogeneous - printed(angle)).max()))
-    return largest
+    angles = np.linspace(-np.pi, np.pi, 37)
+    printed = evaluated(chain.link_matrix(k), [chain.joint_variable(k)], angles[:, np.newaxis])
+    return float(abs(joint_placements(load_arm("es165d"), k, angles) - printed).max())

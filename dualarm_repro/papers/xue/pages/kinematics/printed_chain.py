@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
+from .....arms.exact_chain import craig_parameters
 from .....ledger import REGISTRY
 from .....tracking import memo
 from ...document import LENGTHS, robot
@@ -58,25 +59,10 @@ def substituted(k: int, *, corrected: bool, mirrored: bool = False) -> sp.Matrix
     return general_matrix(corrected).subs(values)
 
 
-def equal(left: sp.Matrix, right: sp.Matrix) -> bool:
-    """Whether two matrices are the same function of the joint variables."""
-    return (left - right).applyfunc(sp.simplify).is_zero_matrix is True
-
-
 def printed_parameters() -> dict[str, list[float]]:
-    """a_{i-1}, d_i and alpha_{i-1} recovered from matrices (2)-(7) alone.
-
-    In Craig's form the first row gives a, the third column (0, -sin alpha, cos alpha) gives alpha,
-    and d is the projection of the translation on that column.
-    """
-    table: dict[str, list[float]] = {"a": [], "d": [], "alpha": []}
-    for k in LINKS:
-        matrix = link_matrix(k)
-        axis, shift = matrix[:3, 2], matrix[:3, 3]
-        table["a"].append(float(shift[0]))
-        table["d"].append(float(axis.dot(shift)))
-        table["alpha"].append(float(sp.atan2(-axis[1], axis[2])))
-    return table
+    """a_{i-1}, d_i and alpha_{i-1} recovered from matrices (2)-(7) alone."""
+    columns = zip(*(craig_parameters(link_matrix(k)) for k in LINKS), strict=True)
+    return dict(zip(("a", "d", "alpha"), map(list, columns), strict=True))
 
 
 def printed_lengths() -> dict[str, float]:
@@ -100,11 +86,3 @@ def table_pose(q: np.ndarray) -> np.ndarray:
     for values in zip(rows["a"], rows["alpha"], rows["d"], q, strict=True):
         pose = pose @ np.asarray(link(*values), dtype=float)
     return pose
-
-
-def product(links: list[sp.Matrix]) -> sp.Matrix:
-    """Product of link transforms, expanded."""
-    total = sp.eye(4)
-    for link in links:
-        total = (total * link).applyfunc(sp.expand)
-    return total

@@ -13,10 +13,12 @@ import pandas as pd
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from .....planning.descent.termination import StopReason
 from .....planning.plan import Plan
+from .....planning.trials.runs import attempt
+from .....planning.trials.turns import onsets, phases, stands_still
 from .....tracking import memo
 from .....view.transitions import transitions_figure
 from ...document import SEED, placed_slave
-from ...motions import attempt, master_plan, slave_obstacles
+from ...motions import master_plan, slave_obstacles
 from ...outcomes import starts
 from ...reading import BLOCK, Case, improved, nominal
 from ...studies.ablation import NAMED
@@ -44,7 +46,6 @@ _END = {
 _SAME = 1e-9  # [m]
 #: Wider perturbations than those of Table 2 [rad], so that every branch is taken.
 _WIDTH, _RUNS = 0.6, 12
-_ROUND = 1.0 + 1e-6
 
 
 @checks(
@@ -73,23 +74,23 @@ def flow_chart(assumed: Assumed) -> Result:
     runs = [run for layout in layouts for run in _runs(case._replace(layout=layout))]
     counts = Counter(pair for run in runs for pair in pairwise(_states_of(run)))
     plans = [plan for run in runs for plan in run]
-    onsets = [(plan, k) for plan in plans for k in _onsets(plan)]
+    switched = [(plan, k) for plan in plans for k in onsets(plan)]
     arrived = [plan for plan in plans if plan.reached]
-    still = sum(_stands_still(plan, k, planner.stuck_threshold) for plan, k in onsets)
+    still = sum(stands_still(plan, k, BLOCK, planner.stuck_threshold) for plan, k in switched)
     return Result(
         obtained={
             "master_first": _master_first(case),
-            "only_when_still": still == len(onsets),
+            "only_when_still": still == len(switched),
             "arrives_without": not any(plan.active[-1] for plan in arrived),
             "runs": len(runs),
-            "switched_on": len(onsets),
+            "switched_on": len(switched),
             "transitions": len(counts),
         },
         table=pd.DataFrame([{"from": a, "to": b, "taken": n} for (a, b), n in counts.items()]),
         caption=(
             f"The flow that {len(runs)} runs of the code took in three windows, each arrow with "
             "how often: the master is planned first, its path becomes a moving obstacle, then the "
-            f"slave is planned. The virtual point was switched on {len(onsets)} times, "
+            f"slave is planned. The virtual point was switched on {len(switched)} times, "
             f"{still} of them where the arm stood still. The content of the printed chart is not "
             "in the text edition, so it cannot be compared."
         ),
@@ -133,22 +134,7 @@ def _states_of(run: tuple[Plan, ...]) -> list[str]:
 def _route(name: str, plan: Plan) -> list[str]:
     """States of one plan in order."""
     states = (f"{name}: descend the potential", f"{name}: toward the virtual point")
-    changes = np.flatnonzero(np.diff(plan.active))
-    return [states[int(plan.active[0])], *(states[int(plan.active[k + 1])] for k in changes)]
-
-
-def _onsets(plan: Plan) -> list[int]:
-    """Steps at which the virtual point is switched on."""
-    before = np.concatenate([[False], plan.active[:-1]])
-    return np.flatnonzero(plan.active & ~before).tolist()
-
-
-def _stands_still(plan: Plan, step: int, threshold: float) -> bool:
-    """Whether the mean configurations of the two blocks of steps before differ by less."""
-    if step < 2 * BLOCK - 1:
-        return False
-    last, before = plan.path[step - BLOCK + 1 : step + 1], plan.path[: step - BLOCK + 1][-BLOCK:]
-    return bool(abs(last.mean(axis=0) - before.mean(axis=0)).max() < _ROUND * threshold)
+    return [states[acts] for acts in phases(plan)]
 
 
 def _shown(counts: Counter[tuple[str, str]]) -> dict[str, tuple[float, float]]:

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
-from .....planning.field.control_points import end_effector
 from .....planning.plan import Plan
-from .....view.style import MASTER, SLAVE
+from .....planning.trials.replay import Replay
+from .....view import replays
+from .....view.style import MASTER
 from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
-from ...document import Layout, gains, placed_master
+from ...document import Layout, gains
 from ...motions import (
-    Replay,
     master_plan,
     master_undisturbed,
     points_to_window,
@@ -25,7 +24,7 @@ from ...motions import (
     slave_undisturbed,
 )
 from ...reading import Case, PlannerChoice
-from .scenes import avoiding_scene, colliding_scene, master_scene
+from ..scene import stage
 
 checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
 
@@ -80,7 +79,9 @@ def master_past_window(assumed: Assumed) -> Result:
             "away from the dashed track it would take without repulsion."
         ),
         figure=lambda: _master_figure(layout, planner, plan),
-        scene=lambda: master_scene(layout, plan),
+        scene=lambda: replays.add_plan(
+            stage("The master moves past the window; its track is blue.", layout), plan
+        ),
     )
 
 
@@ -116,6 +117,10 @@ def slave_collides(assumed: Assumed) -> Result:
     replay, found = _colliding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
+    layout, (deepest, nearest) = Layout.of(assumed), replays.contacts_of(replay)
+    tcp = replay.plan.tcp
+    contacts = {"hits the window": tcp[deepest], "meets the master": tcp[nearest]}
+    title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
         obtained=found,
         caption=(
@@ -133,8 +138,10 @@ def slave_collides(assumed: Assumed) -> Result:
             "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
             "the window and crosses the master's dashed track, with circles at both places."
         ),
-        figure=lambda: _tracks_figure(tracks_figure, replay, _contacts(replay), **_VIEW),
-        scene=lambda: colliding_scene(replay),
+        figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **_VIEW),
+        scene=lambda: replays.add_contacts(
+            replays.add_replay(stage(title, layout), replay), replay
+        ),
     )
 
 
@@ -144,7 +151,7 @@ def slave_collides_without(assumed: Assumed) -> Result:
     replay, found = _colliding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    steps = np.flatnonzero(replay.to_window() <= 0.0).tolist()
+    steps = np.flatnonzero(replay.to_obstacles() <= 0.0).tolist()
     return Result(
         obtained={**found, "steps_inside_bar": steps},
         caption=(
@@ -160,36 +167,40 @@ def slave_collides_without(assumed: Assumed) -> Result:
 @checks("xue.fig10", rules=_AVOIDING_RULES)
 def avoiding_from_above(assumed: Assumed) -> Result:
     """Both avoiding tracks seen along the vertical."""
-    replay, found = _avoiding(assumed)
-    if replay is None:
-        return Result(found, _NOTHING)
-    return Result(
-        obtained=found,
-        table=_track_table(replay),
-        caption=f"Seen from above: {_arrival(replay, found)}",
-        alt=(
-            "Plan view of a window, of the master's track and of the slave's track around its bars."
-        ),
-        figure=lambda: _tracks_figure(top_view_figure, replay),
-    )
+    alt = "Plan view of a window, of the master's track and of the slave's track around its bars."
+    return _avoiding_tracks(assumed, "Seen from above:", alt, top_view_figure)
 
 
 @checks("xue.fig11", rules=_AVOIDING_RULES)
 def avoiding_in_space(assumed: Assumed) -> Result:
     """Both avoiding tracks in space."""
+    alt = (
+        "Tracks of both end effectors in space: the slave's runs from Start through the "
+        "opening of the window to End, clear of the bars and of the master's track."
+    )
+    result = _avoiding_tracks(assumed, "With the improved method", alt, tracks_figure, **_VIEW)
+    if result.figure is None:
+        return result
+    replay, _ = _avoiding(assumed)
+    title = "The slave passes the window while the master moves; nothing is touched."
+    return replace(
+        result, scene=lambda: replays.add_replay(stage(title, Layout.of(assumed)), replay)
+    )
+
+
+def _avoiding_tracks(
+    assumed: Assumed, begin: str, alt: str, view: replays.TracksView, **how: Any
+) -> Result:
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
+    layout = Layout.of(assumed)
     return Result(
         obtained=found,
-        table=_track_table(replay),
-        caption=f"With the improved method {_arrival(replay, found)}",
-        alt=(
-            "Tracks of both end effectors in space: the slave's runs from Start through the "
-            "opening of the window to End, clear of the bars and of the master's track."
-        ),
-        figure=lambda: _tracks_figure(tracks_figure, replay, **_VIEW),
-        scene=lambda: avoiding_scene(replay),
+        table=replay.to_frame(),
+        caption=f"{begin} {_arrival(found)}",
+        alt=alt,
+        figure=lambda: _tracks_figure(view, layout, replay, **how),
     )
 
 
@@ -205,18 +216,18 @@ def slave_avoids(assumed: Assumed) -> Result:
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result({**found, "points": None}, _NOTHING)
-    found["points"] = float(replay.slave.clearance.min())
+    found["points"] = float(replay.plan.clearance.min())
     undisturbed, _ = _colliding(assumed)
     curves = {
-        "window, improved": _until_rest(replay.to_window(), replay.times),
+        "window, improved": replay.until_rest(replay.to_obstacles()),
         "master, improved": replay.apart(),
-        "window, attraction alone": _until_rest(undisturbed.to_window(), replay.times),
+        "window, attraction alone": replay.until_rest(undisturbed.to_obstacles()),
         "master, attraction alone": undisturbed.apart(),
     }
     return Result(
         obtained=found,
         caption=(
-            f"At the end effector, {_arrival(replay, found)} No control point comes closer than "
+            f"At the end effector, {_arrival(found)} No control point comes closer than "
             f"{found['points']:.3f} m to window or master. What whole links do is another question."
         ),
         alt=(
@@ -265,12 +276,12 @@ def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> 
     if replay is None:
         nothing = dict.fromkeys(("flange_window", "beyond_meeting"))
         return {"reached": False, "enters_bar": False, "meets_master": False, **nothing}
-    window, apart = float(replay.to_window().min()), replay.apart(moving=moving)
+    window, apart = float(replay.to_obstacles().min()), replay.apart(moving=moving)
     return {
-        "reached": replay.slave.reached,
-        "reason": str(replay.slave.reason),
-        "steps": replay.slave.steps,
-        "activations": replay.slave.activations,
+        "reached": replay.plan.reached,
+        "reason": str(replay.plan.reason),
+        "steps": replay.plan.steps,
+        "activations": replay.plan.activations,
         "flange_window": window,
         "enters_bar": window <= 0.0,
         "flanges_apart": float(apart.min()),
@@ -286,7 +297,7 @@ def _in_bar(window: float) -> str:
     return f"misses the bars by {100 * window:.1f} cm"
 
 
-def _arrival(replay: Replay, found: dict[str, Any]) -> str:
+def _arrival(found: dict[str, Any]) -> str:
     if not found["reached"]:
         return f"the slave does not arrive ({found['reason']})."
     return (
@@ -296,35 +307,13 @@ def _arrival(replay: Replay, found: dict[str, Any]) -> str:
     )
 
 
-def _until_rest(values: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """A quantity of the slave, which waits at its goal, until both arms rest."""
-    return values[np.minimum(times, len(values) - 1)]
-
-
-def _tracks_figure(view: Callable[..., Any], replay: Replay, *further: Any, **how: Any) -> Any:
+def _tracks_figure(
+    view: replays.TracksView, layout: Layout, replay: Replay, *further: Any, **how: Any
+) -> Any:
     """Tracks of both end effectors around the window, with Start, End and the virtual point."""
-    start, end = replay.layout.slave_points()
-    points = end_effector(placed_master(replay.layout), replay.track.configurations)
-    tracks = [Track("master", points, MASTER, "--"), Track("slave", replay.slave.tcp, SLAVE)]
-    marks = {"Start": start, "End": end, "virtual point": replay.layout.window_centre}
-    return view(replay.layout.window(), tracks, marks, *further, **how)
-
-
-def _track_table(replay: Replay) -> pd.DataFrame:
-    slave = _until_rest(replay.slave.tcp, replay.times)
-    master = end_effector(placed_master(replay.layout), replay.track.at(replay.times))
-    columns = {
-        f"{name}_{axis}_m": points[:, k]
-        for name, points in (("master", master), ("slave", slave))
-        for k, axis in enumerate("xyz")
-    }
-    return pd.DataFrame({"step": replay.times, **columns})
-
-
-def _contacts(replay: Replay) -> dict[str, np.ndarray]:
-    """Where the undisturbed slave is deepest in a bar, and nearest to the master."""
-    places = {"hits the window": replay.to_window(), "meets the master": replay.apart(moving=True)}
-    return {name: replay.slave.tcp[distance.argmin()] for name, distance in places.items()}
+    start, end = layout.slave_points()
+    marks = {"Start": start, "End": end, "virtual point": layout.window_centre}
+    return replays.replay_figure(view, replay, layout.window(), marks, *further, **how)
 
 
 def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:

@@ -12,8 +12,8 @@ import numpy as np
 import pinocchio as pin
 
 from .....arms import load_arm
-from .....differences import central_differences
 from .....ledger import REGISTRY, Residual, Result
+from .....planning.checks.field_agreement import gradient_error
 from .....planning.descent.problem import PlanningProblem, problem
 from .....planning.field.obstacles import obstacles_of
 from .....planning.field.potentials import Potential
@@ -46,7 +46,6 @@ GRADIENT = partial(
 _GRADIENTS = 60
 #: Place of a window close to the master's wrist at its start, in the frame of its base [m].
 _CENTRE = np.array([1.4, 0.0, -1.1])
-_SHIFT = 1e-5  # [rad], of central differences
 
 
 @memo(64)
@@ -100,15 +99,6 @@ def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
     return q[made.repulsion.distances(q).min(axis=(1, 2)) > 0.02]
 
 
-def worst_gradient(potential: Potential, q: np.ndarray) -> float:
-    """Largest relative difference between dU/dq and central differences of U."""
-    worst = 0.0
-    for row in q:
-        exact, slopes = potential.gradient(row), central_differences(potential.value, row, _SHIFT)
-        worst = max(worst, float(abs(slopes - exact).max() / max(1.0, abs(exact).max())))
-    return worst
-
-
 def choices(name: str) -> list[Any]:
     """The readings that are declared for an assumption."""
     return list(REGISTRY.declared(f"xue.{name}", "choices").choices)
@@ -122,7 +112,7 @@ def difference(printed: np.ndarray, run: np.ndarray) -> float:
 def agreement(name: str, printed: np.ndarray, potential: Potential, q: np.ndarray) -> Result:
     """The printed formula against the potential that is descended, and its gradient."""
     found = difference(printed, potential.value(q))
-    error = worst_gradient(potential, q[:_GRADIENTS])
+    error = gradient_error(potential, q[:_GRADIENTS])
     return Result(
         obtained={"value": found, "gradient": error},
         caption=(

@@ -9,6 +9,7 @@ import numpy as np
 
 from .....differences import central_differences
 from .....ledger import Assumed, Bounded, Is, Residual, Result, Role
+from .....planning.checks.field_agreement import gradient_error
 from .....planning.descent.problem import PlanningProblem
 from .....planning.field.control_points import end_effector
 from .....tracking import memo
@@ -23,7 +24,6 @@ from .agreement import (
     sample_problem,
     samples,
     worst,
-    worst_gradient,
 )
 from .printed_field import attraction, repulsion, repulsive_force, slope, value
 
@@ -102,7 +102,7 @@ def attractive_force(assumed: Assumed) -> Result:
     """The two sides of (11) as printed, the last also without its modulus."""
     forms = attractive_force_forms()
     made = sample_problem()
-    error = worst_gradient(made.attraction.parts[0], samples(made))
+    error = gradient_error(made.attraction.parts[0], samples(made))
     explained = forms["vector_form"] and not forms["printed_form"]
     if explained:
         finding = (
@@ -167,7 +167,7 @@ def repulsive_force_run(assumed: Assumed) -> Result:
     """(12) as printed against the gradient of (10) as printed, and against the field run."""
     made = sample_problem(control_points="end_effector")
     q = samples(made)
-    error, sides, force = worst_gradient(made.repulsion, q), _force_sides(), _force_run(made, q)
+    error, sides, force = gradient_error(made.repulsion, q), _force_sides(), _force_run(made, q)
     return Result(
         obtained={"sides": sides, "force": force, "gradient": error},
         caption=(

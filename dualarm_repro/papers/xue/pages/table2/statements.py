@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import copy
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
 import numpy as np
 
+from .....arms.counted_inverse import counting_inverse
+from .....arms.tool_postures import tool_posture
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
 from .....ledger.formula import parse
 from .....planning.descent.apf import plan_apf
@@ -20,7 +22,6 @@ from ...document import (
     assumption,
     placed_master,
     placed_slave,
-    posture,
     printed_vector,
     text_counts,
 )
@@ -203,7 +204,8 @@ def without_inverse_kinematics(assumed: Assumed) -> Result:
     }
     calls, steps = {}, {}
     for name, (arm, obstacles) in around.items():
-        counted, counter = _counting(arm)
+        inner, counter = counting_inverse(arm.arm)
+        counted = replace(arm, arm=inner)
         ends = [_angles(counted, item, case.layout.slave_postures) for item in _ENDS[name]]
         settings = improved(case.planner, case.layout.window_centre, ends[1])
         plan = plan_apf(counted, *ends, obstacles, settings)
@@ -231,16 +233,4 @@ def _angles(placed: PlacedArm, item: str, choice: str) -> np.ndarray:
     if "q" in REGISTRY.printed(f"xue.{item}"):
         return printed_vector(item, "q")
     target = printed_vector(item, "position")
-    return posture(placed.arm, target - placed.placement.translation, choice)
-
-
-def _counting(placed: PlacedArm) -> tuple[PlacedArm, list[None]]:
-    """The arm with a closed-form inverse that notes every call."""
-    arm, calls = copy.copy(placed.arm), []
-
-    def noted(*args: object, **options: object) -> np.ndarray:
-        calls.append(None)
-        return placed.arm.ik_branches(*args, **options)
-
-    arm.ik_branches = noted
-    return PlacedArm(placed.name, arm, placed.placement, placed.start, placed.goal), calls
+    return tool_posture(placed.arm, target - placed.placement.translation, choice)

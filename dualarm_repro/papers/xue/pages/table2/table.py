@@ -15,24 +15,11 @@ from .....ledger.shares import Share
 from .....planning.trials.stuck import PUSH
 from .....tracking import memo
 from .....view.shares import count_grid_figure, shares_figure
+from ... import stored
 from ...document import METHODS_OF_TABLE_2, table_counts, text_counts
 from ...motions import slave_obstacles
 from ...outcomes import TRIALS, VARIANTS, Outcome, run_variants, starts, summary, variant_of
 from ...reading import Case
-from ...stored import (
-    ablation_shares,
-    choice,
-    held,
-    held_share,
-    is_declared,
-    lottery_shares,
-    lottery_table,
-    mean_with_interval,
-    missed,
-    outcomes_of_table_2,
-    repeated_shares,
-    virtual_point_counts,
-)
 
 checks = partial(REGISTRY.checks, page="xue/table2")
 
@@ -100,9 +87,9 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
 def both_methods(assumed: Assumed) -> Result:
     """Both readings of the print against ten trials, many trials and the lottery."""
     trials, reading = assumed_trials(assumed), assumed["classical_method"]
-    shares, shown = lottery_shares(reading), outcomes_of_table_2(reading)
-    difference = mean_with_interval(shown["text"].astype(float) - shown["table"])
-    rows, words, many = table_counts(), text_counts(), repeated_shares()
+    shares, shown = stored.lottery_shares(reading), stored.outcomes_of_table_2(reading)
+    difference = stored.mean_with_interval(shown["text"].astype(float) - shown["table"])
+    rows, words, many = table_counts(), text_counts(), stored.repeated_shares()
     return Result(
         obtained={
             "reading_of_table": rows,
@@ -116,7 +103,7 @@ def both_methods(assumed: Assumed) -> Result:
             },
             "lottery": {name: found._asdict() for name, found in shares.items()},
             "lottery_mean_missed": {
-                name: float(missed(name).mean()) for name in (reading, "improved")
+                name: float(stored.missed(name).mean()) for name in (reading, "improved")
             },
         },
         table=_trial_table(trials),
@@ -146,8 +133,8 @@ def both_methods(assumed: Assumed) -> Result:
 def improved_succeeds(assumed: Assumed) -> Result:
     """Ten runs of the improved method, and the same over random arrangements."""
     trials = assumed_trials(assumed)
-    found = lottery_shares(assumed["classical_method"])["improved_never_missed"]
-    virtual = virtual_point_counts()
+    found = stored.lottery_shares(assumed["classical_method"])["improved_never_missed"]
+    virtual = stored.virtual_point_counts()
     arrived = None if trials is None else TRIALS - trials.improved.missed
     return Result(
         obtained={
@@ -167,7 +154,7 @@ def improved_succeeds(assumed: Assumed) -> Result:
             "Bars with intervals: share of trials that miss the goal, for nine variants of the "
             "method."
         ),
-        figure=lambda: shares_figure(ablation_shares(), MISS_LABEL),
+        figure=lambda: shares_figure(stored.ablation_shares(), MISS_LABEL),
     )
 
 
@@ -188,7 +175,7 @@ def improved_succeeds(assumed: Assumed) -> Result:
 def traditional_trapped(assumed: Assumed) -> Result:
     """Ten runs of the traditional method, and the same over random arrangements."""
     trials, reading = assumed_trials(assumed), assumed["classical_method"]
-    found = lottery_shares(reading)["traditional_mostly_held"]
+    found = stored.lottery_shares(reading)["traditional_mostly_held"]
     old = None if trials is None else trials.traditional
     witnesses = trapped_witnesses(reading)
     shown = (
@@ -206,7 +193,7 @@ def traditional_trapped(assumed: Assumed) -> Result:
             f"{_sentence(trials)} {_certified(trials)}"
             f"Over random arrangements at least {max(text_counts().values())} of 10 are held in "
             f"{_percent(found)}; of the traditional runs that stand still there pushes leave "
-            f"{_percent(held_share(variant_of(reading)))}.{shown}"
+            f"{_percent(stored.held_share(variant_of(reading)))}.{shown}"
         ),
         alt=(
             "Grid of counts: traditional runs that miss over improved runs that miss, per random "
@@ -223,20 +210,21 @@ def trapped_witnesses(reading: str) -> list[dict[str, Any]]:
     As many traditional runs as the text prints are held, all where the gradient vanishes, and no
     other is missed; no improved run misses.
     """
-    table, words, name = lottery_table(), text_counts(), variant_of(reading)
+    table, words, name = stored.lottery_table(), text_counts(), variant_of(reading)
+    methods = {"traditional": reading, "improved": "improved"}
     shown = (
-        is_declared(table)
-        & (held(reading) == words["traditional"])
-        & (missed(reading) == words["traditional"])
-        & (missed("improved") == words["improved"])
+        stored.is_declared(table)
+        & (stored.held(reading) == words["traditional"])
+        & (stored.missed(reading) == words["traditional"])
+        & (stored.missed("improved") == words["improved"])
         & (table[f"{name}_stationary"] == table[f"{name}_trapped"]).to_numpy()
     )
     return [
-        choice(
+        stored.choice(
             int(k),
             "holds",
-            held={"traditional": int(held(reading)[k]), "improved": int(held("improved")[k])},
-            missed={"traditional": int(missed(reading)[k]), "improved": int(missed("improved")[k])},
+            held={name: int(stored.held(one)[k]) for name, one in methods.items()},
+            missed={name: int(stored.missed(one)[k]) for name, one in methods.items()},
         )
         for k in np.flatnonzero(shown)[:1]
     ]
@@ -321,7 +309,7 @@ def _trial_table(trials: Trials | None) -> pd.DataFrame | None:
 
 def _lottery_figure(reading: str) -> Any:
     counts = np.zeros((TRIALS + 1, TRIALS + 1), dtype=int)
-    np.add.at(counts, (missed(reading), missed("improved")), 1)
+    np.add.at(counts, (stored.missed(reading), stored.missed("improved")), 1)
     return count_grid_figure(
         counts,
         "improved runs of 10 that miss",

@@ -1,0 +1,23 @@
+"""A potential against its own gradient by central differences."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...differences import central_differences
+from ..field.potentials import Potential
+
+
+def gradient_error(potential: Potential, q: np.ndarray, step: float = 1e-5) -> float:
+    """Largest |dU/dq - central differences of U| / max(1, |dU/dq|) at configurations (N, nq).
+
+    Parameters
+    ----------
+    step : float
+        Of the differences [rad].
+    """
+    worst = 0.0
+    for row in q:
+        exact, slopes = potential.gradient(row), central_differences(potential.value, row, step)
+        worst = max(worst, float(abs(slopes - exact).max() / max(1.0, abs(exact).max())))
+    return worst
