@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, UnknownNameError
 from ..scene import JointPath, PlacedArm, Scene
+from ..settings import Settings
+from .arm_path import ArmPath
 from .checks.link_clearance import LinkClearance, link_clearance
 from .descent.compiled import plan_apf_compiled
 from .field.control_points import ControlPoints, control_points, end_effector, ends_of
@@ -25,17 +27,20 @@ from .settings import APFSettings, PointSet
 Planner = Callable[[PlacedArm, ArrayLike, ArrayLike, Obstacles, APFSettings], Plan]
 #: Which points of an arm repel the next one: those it is planned with, or others by name or number.
 MasterPoints = Literal["joint_points"] | PointSet | Sequence[int]
+_Settings_co = TypeVar("_Settings_co", bound=Settings, covariant=True)
+_Plan_co = TypeVar("_Plan_co", bound=ArmPath, covariant=True)
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class Task(Generic[_Settings_co]):
     """What one arm is to do.
 
     Attributes
     ----------
     start, goal : (nq,)
         [rad]
-    settings : APFSettings
+    settings : Settings
+        Of the planner.
     index : (steps + 1,), optional
         When the later arms meet each configuration of this one, in their steps; default its own
         steps, so that all arms make one step at a time.
@@ -43,18 +48,18 @@ class Task:
 
     start: ArrayLike
     goal: ArrayLike
-    settings: APFSettings
+    settings: _Settings_co
     index: Callable[[Plan], np.ndarray] | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class CoordinatedPlan:
+class CoordinatedPlan(Generic[_Plan_co]):
     """Plans of several arms over a common index; an arm that has arrived stays at its goal.
 
     Attributes
     ----------
     scene : Scene
-    plans : dict of arm to Plan
+    plans : mapping of arm to its plan
         In the order of planning.
     paths : dict of arm to JointPath
         The same motions over the common index, the steps of the last arm.
@@ -63,17 +68,17 @@ class CoordinatedPlan:
     """
 
     scene: Scene
-    plans: dict[str, Plan]
+    plans: Mapping[str, _Plan_co]
     paths: dict[str, JointPath] = field(repr=False)
     residuals: dict[str, float] = field(default_factory=dict)
 
     @property
-    def master(self) -> Plan:
+    def master(self) -> _Plan_co:
         """The first plan."""
         return next(iter(self.plans.values()))
 
     @property
-    def slave(self) -> Plan:
+    def slave(self) -> _Plan_co:
         """The last plan."""
         return list(self.plans.values())[-1]
 
@@ -112,13 +117,13 @@ class CoordinatedPlan:
 
 def plan_master_slave(
     scene: Scene,
-    tasks: Mapping[str, Task],
+    tasks: Mapping[str, Task[APFSettings]],
     *,
     master_points: MasterPoints = "joint_points",
     radius: float | None = None,
     leave_out: Collection[str] = (),
     planner: Planner = plan_apf_compiled,
-) -> CoordinatedPlan:
+) -> CoordinatedPlan[Plan]:
     """Plan the arms in the order of ``tasks``; each meets all earlier ones as moving obstacles.
 
     An arm is planned without regard to those that come later. Obstacles and earlier arms are met
@@ -171,6 +176,8 @@ def at_tool_speed(step: float) -> Callable[[Plan], np.ndarray]:
     return index
 
 
-def _points(plan: Plan, task: Task, choice: MasterPoints, radius: float | None) -> ControlPoints:
+def _points(
+    plan: Plan, task: Task[APFSettings], choice: MasterPoints, radius: float | None
+) -> ControlPoints:
     chosen = task.settings.control_points if choice == "joint_points" else choice
     return control_points(plan.placed.arm, chosen, radius=radius)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from ..arms import Arm
 from ..errors import InputError, UnknownNameError
@@ -13,13 +13,22 @@ from ..settings import Settings
 from .checks.link_clearance import require_links_clear
 from .defaults import default_settings, default_two_arm_settings
 from .master_slave import CoordinatedPlan, Task, plan_master_slave
-from .search.bidirectional_arms import TwoArmSettings, one_sided, plan_arms_bidirectional
+from .plan import Plan
+from .search.bidirectional_arms import (
+    SplicedPlan,
+    TwoArmSettings,
+    one_sided,
+    plan_arms_bidirectional,
+)
 from .settings import APFSettings
 from .tasks.task_file import TaskSet, load_tasks
 
+AnyPlan = CoordinatedPlan[Plan | SplicedPlan]
+_Settings = TypeVar("_Settings", bound=Settings)
+
 
 @dataclass(frozen=True)
-class Method:
+class Method(Generic[_Settings]):
     """A planner and what its name stands for.
 
     Attributes
@@ -37,10 +46,26 @@ class Method:
 
     name: str
     description: str
-    settings: type[Settings]
-    default: Callable[[Arm], Settings]
-    adapted: Callable[[Any], Settings]
-    plan: Callable[[TaskSet, dict[str, Task]], CoordinatedPlan]
+    settings: type[_Settings]
+    default: Callable[[Arm], _Settings]
+    adapted: Callable[[_Settings], _Settings]
+    plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
+
+    def planned(self, path: str | Path) -> AnyPlan:
+        """See :func:`plan_file`."""
+        given = load_tasks(path, self.settings)
+        arms = {placed.name: placed for placed in given.scene.arms}
+        tasks = {
+            arm: Task(
+                task.start,
+                task.goal,
+                self.adapted(given.settings or self.default(arms[arm].arm)),
+            )
+            for arm, task in given.tasks.items()
+        }
+        require_links_clear(given.scene, {arm: task.start for arm, task in given.tasks.items()})
+        residuals = {arm: task.residual for arm, task in given.tasks.items() if task.residual > 0.0}
+        return replace(self.plan(given, tasks), residuals=residuals)
 
 
 def _traditional(settings: APFSettings) -> APFSettings:
@@ -59,7 +84,7 @@ def _attraction_only(settings: APFSettings) -> APFSettings:
     return settings.changed(repulsion=None, virtual_point=None)
 
 
-def _in_turn(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
+def _in_turn(given: TaskSet[APFSettings], tasks: dict[str, Task[APFSettings]]) -> AnyPlan:
     return plan_master_slave(
         given.scene,
         tasks,
@@ -69,7 +94,9 @@ def _in_turn(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
     )
 
 
-def _from_both_ends(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
+def _from_both_ends(
+    given: TaskSet[TwoArmSettings], tasks: dict[str, Task[TwoArmSettings]]
+) -> AnyPlan:
     for field, value in (("master_points", given.master_points), ("radius", given.radius)):
         if value not in ("joint_points", None):
             expected = "nothing: by this method the hull of the master repels the slave"
@@ -80,7 +107,8 @@ def _from_both_ends(given: TaskSet, tasks: dict[str, Task]) -> CoordinatedPlan:
 _APF = (APFSettings, default_settings)
 _SEARCH = (TwoArmSettings, default_two_arm_settings)
 
-METHODS: dict[str, Method] = {
+AnyMethod = Method[APFSettings] | Method[TwoArmSettings]
+METHODS: dict[str, AnyMethod] = {
     method.name: method
     for method in (
         Method(
@@ -129,7 +157,7 @@ METHODS: dict[str, Method] = {
 }
 
 
-def method(name: str) -> Method:
+def method(name: str) -> AnyMethod:
     """The method of a name.
 
     Raises
@@ -147,7 +175,7 @@ def settings_schema(name: str) -> dict[str, Any]:
     return method(name).settings.model_json_schema()
 
 
-def plan_file(path: str | Path, name: str) -> CoordinatedPlan:
+def plan_file(path: str | Path, name: str) -> AnyPlan:
     """Plan the tasks of a task file or scene file by a method, arm after arm.
 
     Raises
@@ -157,17 +185,4 @@ def plan_file(path: str | Path, name: str) -> CoordinatedPlan:
     DataFileError, InputError
         A wrong file; two bodies that touch at the start; a goal out of reach.
     """
-    chosen = method(name)
-    given = load_tasks(path, chosen.settings)
-    arms = {placed.name: placed for placed in given.scene.arms}
-    tasks = {
-        arm: Task(
-            task.start,
-            task.goal,
-            chosen.adapted(given.settings or chosen.default(arms[arm].arm)),
-        )
-        for arm, task in given.tasks.items()
-    }
-    require_links_clear(given.scene, {arm: task.start for arm, task in given.tasks.items()})
-    residuals = {arm: task.residual for arm, task in given.tasks.items() if task.residual > 0.0}
-    return replace(chosen.plan(given, tasks), residuals=residuals)
+    return method(name).planned(path)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pinocchio as pin
 
 from ..arms import Arm
-from .style import BLACK, BLUE, GREEN, PALETTE, RED, axes_3d, house_style
+from .style import BLACK, BLUE, GREEN, PALETTE, RED, View, axes_3d, house_style
 
 _AXIS_COLORS = (RED, GREEN, BLUE)
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 1}
@@ -37,11 +37,12 @@ def dimension_drawing(
             a, b = np.asarray(start) + offset, np.asarray(end) + offset
             for foot, tip in ((start, a), (end, b)):
                 ax.plot(*np.array([foot, tip]).T, color="0.6", lw=0.7)
-            ax.annotate("", a, b, arrowprops={"arrowstyle": "<->", "color": BLACK, "lw": 1})
+            arrow = {"arrowstyle": "<->", "color": BLACK, "lw": 1}
+            ax.annotate("", (a[0], a[1]), (b[0], b[1]), arrowprops=arrow)
             text = f"{name} = {1000 * float(np.linalg.norm(b - a)):.0f}"
             # Beyond the line, so that a short dimension keeps its arrow.
-            place = 0.5 * (a + b) + 0.5 * np.asarray(offset)
-            ax.text(*place, text, ha="center", va="center", bbox=_PAPER)
+            x, z = 0.5 * (a + b) + 0.5 * np.asarray(offset)
+            ax.text(x, z, text, ha="center", va="center", bbox=_PAPER)
         ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal", title="dimensions in mm")
         ax.margins(0.3, 0.12)
     return figure
@@ -71,7 +72,7 @@ def frames_figure(frames: np.ndarray, length: float) -> Any:
     return figure
 
 
-def stick_figure(arms: Mapping[str, tuple[Arm, np.ndarray, pin.SE3]], **view: float) -> Any:
+def stick_figure(arms: Mapping[str, tuple[Arm, np.ndarray, pin.SE3]], **view: Unpack[View]) -> Any:
     """Stick figure of arms: name to arm, configuration and placement of the base."""
     with house_style():
         figure, ax = axes_3d(**view)

@@ -120,7 +120,8 @@ def card_figure(made: dict[str, Any]) -> Any:
 
 def robustness_text(found: dict[str, Any], verdict: str) -> str:
     """Robustness of a verdict in one sentence or two."""
-    met, low, high = found["meets_print"]["share"], *found["meets_print"]["interval"]
+    met = found["meets_print"]["share"]
+    low, high = found["meets_print"]["interval"]
     text = (
         f"{share_of(verdict).capitalize()} in {percent(met)} of {found['samples']} draws of the "
         f"assumptions (95 % interval {interval(low, high)}). "

@@ -7,6 +7,7 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ..arms.occupancy import RotationVolume
 from ..arms.workspace import VoxelVolume
@@ -18,8 +19,7 @@ def volume_figure(
 ) -> Any:
     """Cloud (n, 3) of one arm, its half section, and its volume over the size of the cells."""
     with house_style():
-        figure = plt.figure(figsize=(12, 4.2))
-        figure.get_layout_engine().set(w_pad=0.2)
+        figure = plt.figure(figsize=(12, 4.2), layout=ConstrainedLayoutEngine(w_pad=0.2))
         space = figure.add_subplot(1, 3, 1, projection="3d", box_aspect=(1, 1, 0.7))
         space.scatter(*points.T, s=0.1, c=points[:, 2], cmap="cividis", alpha=0.35, rasterized=True)
         space.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")

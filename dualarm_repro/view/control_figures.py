@@ -13,7 +13,7 @@ from .style import BLACK, BLUE, GREEN, MASTER, ORANGE, PALETTE, RED, SLAVE, hous
 
 def comparison_figure(
     curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
-    postures: Mapping[str, Sequence[tuple[np.ndarray, ...]]],
+    postures: Mapping[str, Sequence[np.ndarray]],
     ranges: tuple[float, float],
 ) -> Any:
     """Distance of two arms over time with and without avoidance, and postures when nearest.

@@ -94,8 +94,18 @@ def block_diagram(numbers: Mapping[str, str], program: Sequence[str]) -> Any:
 
 
 def _box(ax: Any, x: float, y: float, text: str, color: str) -> None:
-    style = {"boxstyle": "round,pad=0.02", "fc": "white", "ec": color, "lw": 1.4}
-    ax.add_patch(FancyBboxPatch((x - 0.64, y - 0.3), 1.28, 0.6, **style))
+    style = "round,pad=0.02"
+    ax.add_patch(
+        FancyBboxPatch(
+            (x - 0.64, y - 0.3),
+            1.28,
+            0.6,
+            boxstyle=style,
+            facecolor="white",
+            edgecolor=color,
+            lw=1.4,
+        )
+    )
     ax.text(x, y, text, ha="center", va="center", fontsize=11)
 
 

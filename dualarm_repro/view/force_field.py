@@ -36,7 +36,9 @@ def force_field_figure(
         levels = np.quantile(values[outside], np.linspace(0.02, 0.97, 22))
         ax.contour(x, y, np.where(outside, values, np.nan), levels=np.unique(levels), cmap="Greys",
                    linewidths=0.8)  # fmt: skip
-        ax.add_patch(plt.Circle(centre, radius, color=ORANGE, alpha=0.5, label="obstacle"))
+        ax.add_patch(
+            plt.Circle((centre[0], centre[1]), radius, color=ORANGE, alpha=0.5, label="obstacle")
+        )
         ax.plot(*goal, "*", color=BLACK, ms=14, label="goal")
         for k, point in enumerate(points):
             attraction, repulsion = forces(point)

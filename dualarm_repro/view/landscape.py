@@ -29,7 +29,7 @@ def slices_figure(
     with house_style():
         figure, axes = plt.subplots(1, 3, figsize=(13, 4.4))
         for ax, (i, j) in zip(axes, ((0, 1), (0, 2), (1, 2)), strict=True):
-            across, up = (np.linspace(*box[k], _STEPS) for k in (i, j))
+            across, up = (np.linspace(box[k, 0], box[k, 1], _STEPS) for k in (i, j))
             points = np.tile(optimum, (_STEPS * _STEPS, 1))
             grid = np.meshgrid(across, up, indexing="ij")
             points[:, i], points[:, j] = grid[0].ravel(), grid[1].ravel()

@@ -43,7 +43,7 @@ def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:
     drawn = pictures(registry, item_id)
     made = record(registry, item_id)
     root = "../" * (made["page"] or "").count("/")
-    parts = [head_html(made)]
+    parts: list[str] = [head_html(made)]
     if drawn["figure"]:
         parts.append(drawn["figure"])
     elif made["caption"]:
@@ -72,5 +72,7 @@ def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, str | None]
     result = evaluation.result
     if result is None:
         return {"figure": None, "scene": None}
-    figure = figure_html(result.figure(), result.alt, result.caption) if result.figure else None
+    figure = None
+    if result.figure and result.alt:
+        figure = figure_html(result.figure(), result.alt, result.caption)
     return {"figure": figure, "scene": result.scene().page_html() if result.scene else None}

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ..planning.master_slave import CoordinatedPlan
-from ..planning.methods import METHODS, plan_file
+from ..planning.methods import METHODS, AnyPlan, plan_file
 from ..scene import Box, Sphere
 from .page import Page
 from .scene3d import Scene3D
@@ -21,7 +20,7 @@ CHECK_STEP = 0.01
 _OBSTACLE = "#9A9A9A"
 
 
-def plan_summary(plan: CoordinatedPlan) -> dict[str, Any]:
+def plan_summary(plan: AnyPlan) -> dict[str, Any]:
     """Outcome of every arm, and the smallest distance of any two bodies on the densified motion."""
     links = plan.links(CHECK_STEP)
     pair, step = links.nearest if links.pairs else ((), None)
@@ -62,12 +61,12 @@ def compare_methods(path: str | Path) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
 
 
-def plan_page(plan: CoordinatedPlan, title: str) -> Page:
+def plan_page(plan: AnyPlan, title: str) -> Page:
     """The motion of all arms for a page of the book."""
     return Page(plan_scene(plan, title).page_html())
 
 
-def plan_scene(plan: CoordinatedPlan, title: str) -> Scene3D:
+def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
     """The motion of all arms among boxes and spheres, with the tracks of the flanges."""
     arms = dict(zip(plan.plans, PALETTE, strict=False))
     reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
@@ -86,7 +85,7 @@ def plan_scene(plan: CoordinatedPlan, title: str) -> Scene3D:
     return made
 
 
-def _solids(plan: CoordinatedPlan) -> list[tuple[str, Any]]:
+def _solids(plan: AnyPlan) -> list[tuple[str, Any]]:
     found = []
     for name, solid in plan.scene.obstacles.items():
         shapes = solid if isinstance(solid, tuple | list) else (solid,)

@@ -138,7 +138,8 @@ class Scene3D:
 def _rgb(color: str) -> tuple[float, float, float]:
     """Red, green and blue in [0, 1] of a ``#rrggbb`` colour."""
     number = _number(color)
-    return tuple(((number >> shift) & 255) / 255 for shift in (16, 8, 0))
+    red, green, blue = (((number >> shift) & 255) / 255 for shift in (16, 8, 0))
+    return red, green, blue
 
 
 def _number(color: str) -> int:

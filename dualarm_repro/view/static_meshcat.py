@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from base64 import b64encode
 from html import escape
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +57,7 @@ def static_visualizer() -> meshcat.Visualizer:
 
 def viewer_script() -> Path:
     """The viewer's JavaScript inside the installed meshcat package."""
-    return Path(find_spec("meshcat").origin).parent / "viewer" / "dist" / "main.min.js"
+    return Path(meshcat.__file__).parent / "viewer" / "dist" / "main.min.js"
 
 
 def standalone_html(vis: meshcat.Visualizer, title: str) -> str:

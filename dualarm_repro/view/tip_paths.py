@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..scene import PlacedArm, Sphere
 from .arm_drawings import skeleton
-from .style import BLACK, PALETTE, axes_3d, house_style
+from .style import BLACK, PALETTE, View, axes_3d, house_style
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,9 @@ class TipPanel:
     marks: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
-def tip_path_figure(panels: Sequence[TipPanel], spheres: Sequence[Sphere], **view: float) -> Any:
+def tip_path_figure(
+    panels: Sequence[TipPanel], spheres: Sequence[Sphere], **view: Unpack[View]
+) -> Any:
     """Panels side by side, each with the spheres and the floor's height as lower end of z."""
     with house_style():
         figure, axes = axes_3d(5.6 * len(panels), 5.0, columns=len(panels), **view)

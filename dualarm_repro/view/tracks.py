@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,7 +12,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull
 
 from ..scene import Box
-from .style import BLACK, ORANGE, PURPLE, RED, axes_3d, house_style
+from .style import BLACK, ORANGE, PURPLE, RED, View, axes_3d, house_style
 
 _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 _FACES = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
@@ -33,7 +33,7 @@ def tracks_figure(
     marks: Mapping[str, np.ndarray],
     contacts: Mapping[str, np.ndarray] | None = None,
     near: float = np.inf,
-    **view: float,
+    **view: Unpack[View],
 ) -> Any:
     """Bars, tracks and named points in space; circles where something is hit.
 

@@ -92,7 +92,7 @@ def capsule_figure(cell: Cell, q: np.ndarray, robot: int) -> Any:
     with house_style():
         figure, ax = axes_3d(6.4, 6.2, elev=16, azim=-60)
         for core, radius in zip(ends[start : start + len(radii)], radii, strict=True):
-            ax.plot_surface(*_capsule(*core, radius), color=ROBOT_COLORS[robot], alpha=0.45, lw=0)
+            ax.plot_surface(*_capsule(core, radius), color=ROBOT_COLORS[robot], alpha=0.45, lw=0)
         ax.plot(*_skeleton(cell, robot, q).T, "o-", color=BLACK, lw=1, ms=3)
         ax.set_aspect("equal")
     return figure
@@ -113,13 +113,14 @@ def _skeleton(cell: Cell, robot: int, q: np.ndarray) -> np.ndarray:
 def _workpiece(ax: Any, cell: Cell, centre: np.ndarray, index: int) -> None:
     R = cell.rotations[index]
     for core, radius in zip(cell.pipe_cores, cell.pipe_radii, strict=True):
-        ax.plot_surface(*_capsule(*(core @ R.T + centre), radius), color="0.5", alpha=0.3, lw=0)
+        ax.plot_surface(*_capsule(core @ R.T + centre, radius), color="0.5", alpha=0.3, lw=0)
     seam = np.vstack([cell.seam, cell.seam[:1]]) @ R.T + centre
     ax.plot(*seam.T, color=ORANGE, lw=2)
 
 
-def _capsule(start: np.ndarray, end: np.ndarray, radius: float) -> list[np.ndarray]:
-    """Surface of a capsule as three arrays."""
+def _capsule(core: np.ndarray, radius: float) -> list[np.ndarray]:
+    """Surface of a capsule with a core (2, 3) as three arrays."""
+    start, end = core
     axis = end - start
     length = float(np.linalg.norm(axis))
     z = axis / length if length > 0 else np.array([0.0, 0.0, 1.0])

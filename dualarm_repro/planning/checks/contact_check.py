@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene import Scene, densify, distances
+from ...scene.bodies import Body
 from ...scene.scene import FLOOR
 
 ARMS, SELF, OBSTACLES = "arms", "self", "obstacles"
@@ -59,7 +60,7 @@ def contact_check(scene: Scene, path: np.ndarray, max_step: float = SAMPLING) ->
     return ContactCheck(clearance, max(float(excess), 0.0))
 
 
-def _group(scene: Scene, first: object, second: object) -> str:
+def _group(scene: Scene, first: Body, second: Body) -> str:
     if first.owner == second.owner:
         return SELF
     if second.owner == FLOOR:

@@ -52,9 +52,11 @@ def descend(made: PlanningProblem) -> Record:
     end, trap, rules = made.settings.termination, made.settings.termination.trap, made.switch_rules
     path = np.empty((end.step_limit + 1, len(made.start)))
     potential = np.empty(end.step_limit + 1)
-    path[0], state, rows = made.start, initial(rules), []
-    for step, q in enumerate(path):
-        reason = None
+    path[0], state, step = made.start, initial(rules), 0
+    rows: list[tuple[ArrayLike, ...]] = []
+    while True:
+        q = path[step]
+        reason: StopReason | None = None
         potential[step] = made.field_in(state).value(q, step)
         if may_finish(state, rules) and within(*made.errors(q), *made.tolerances):
             reason = StopReason.REACHED
@@ -72,10 +74,14 @@ def descend(made: PlanningProblem) -> Record:
             break
         field, update = made.field_in(state), made.settings.update
         path[step + 1] = next_configuration(field, q, step, update, *made.limits)
-    *terms, active = map(np.array, zip(*rows, strict=True))
+        step += 1
+    attractive, repulsive, virtual, clearance, active = map(np.array, zip(*rows, strict=True))
     return Record(
         path[: step + 1].copy(),
-        *terms,
+        attractive,
+        repulsive,
+        virtual,
+        clearance,
         active,
         reason,
         state.activations,
@@ -84,7 +90,7 @@ def descend(made: PlanningProblem) -> Record:
     )
 
 
-def _terms(made: PlanningProblem, q: np.ndarray, step: int, active: bool) -> tuple:
+def _terms(made: PlanningProblem, q: np.ndarray, step: int, active: bool) -> tuple[ArrayLike, ...]:
     """Attractive, repulsive (K,) and virtual potential, clearance (K,), whether the point acts."""
     return (
         made.attraction.value(q),

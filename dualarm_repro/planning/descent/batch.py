@@ -83,12 +83,14 @@ def plan_batch(
         measures,
     )
     codes, steps, activations, arrivals = numbers.T
+    clearance, gradient_norm = measures.T
     ended = [list(StopReason)[number] for number in codes]
     return Batch(
         tuple(refined(made, *end) for end in zip(ended, last, steps.tolist(), strict=True)),
         steps,
         last,
-        *measures.T,
+        clearance,
+        gradient_norm,
         activations,
         arrivals,
         np.array([rescued(made, *end) for end in zip(ended, activations, strict=True)]),

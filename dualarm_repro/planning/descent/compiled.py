@@ -84,9 +84,19 @@ def descend_compiled(made: PlanningProblem) -> Record:
     began = perf_counter()
     rows = empty_rows(made)
     end = run(field_of(made), rules_of(made), made.switch_rules, made.start, rows)
-    *kept, _ = (part[: end.steps + 1].copy() for part in rows)
-    reason = list(StopReason)[end.reason]
-    return Record(*kept, reason, end.activations, end.arrivals, perf_counter() - began)
+    kept = Rows(*(part[: end.steps + 1].copy() for part in rows))
+    return Record(
+        kept.path,
+        kept.attractive,
+        kept.repulsive,
+        kept.virtual,
+        kept.clearance,
+        kept.active,
+        list(StopReason)[end.reason],
+        end.activations,
+        end.arrivals,
+        perf_counter() - began,
+    )
 
 
 def rules_of(made: PlanningProblem) -> Rules:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,10 +14,12 @@ from ...scene.bodies import PlacedArm
 from ...settings import code
 from ..field.control_points import ControlPoints, control_points, end_effector
 from ..field.obstacles import Obstacles
-from ..field.potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
+from ..field.potentials import JointAttraction, PointRepulsion, PositionAttraction, Potential, Sum
 from ..settings import APFSettings, Attraction, Combination, Repulsion
 from .termination import largest_joint_error
 from .virtual_point import NO_POINT, Switch, SwitchRules, acting
+
+Attractions = Sum[tuple[PositionAttraction, JointAttraction]]
 
 # Stands for the absence of repulsion: gain 0.
 _NO_REPULSION = (0.0, 1.0, 0.5, Combination.SUM)
@@ -39,7 +42,7 @@ class PlanningProblem:
         return end_effector(self.placed, self.goal)
 
     @cached_property
-    def attraction(self) -> Sum:
+    def attraction(self) -> Attractions:
         """U_att of the goal."""
         chosen = self.settings.attraction
         return _attraction(self.placed, chosen, self.goal_point, self.goal)
@@ -52,7 +55,7 @@ class PlanningProblem:
         return PointRepulsion(self.placed, self.points, self.obstacles, *numbers)
 
     @cached_property
-    def virtual(self) -> Sum:
+    def virtual(self) -> Attractions:
         """U_v of the virtual point; zero if the settings have none."""
         point = self.settings.virtual_point
         if point is None:
@@ -64,15 +67,15 @@ class PlanningProblem:
         return _attraction(self.placed, chosen, np.array(point.position), joints)
 
     @cached_property
-    def field(self) -> Sum:
+    def field(self) -> Sum[Sequence[Potential]]:
         """U_att + U_rep, in which a trap is judged."""
         return Sum([self.attraction, self.repulsion])
 
-    def field_in(self, state: Switch) -> Sum:
+    def field_in(self, state: Switch) -> Sum[Sequence[Potential]]:
         """What the arm descends in a state of the virtual point."""
         goal, virtual = acting(state, self.switch_rules)
-        parts = [self.attraction] * goal + [self.repulsion] + [self.virtual] * virtual
-        return Sum(parts)
+        parts: list[Potential] = [self.attraction] * goal
+        return Sum([*parts, self.repulsion, *[self.virtual] * virtual])
 
     @cached_property
     def switch_rules(self) -> SwitchRules:
@@ -87,8 +90,7 @@ class PlanningProblem:
     def tolerances(self) -> tuple[float, float]:
         """Of the joints [rad] and of the position [m]; infinite where none is demanded."""
         end = self.settings.termination
-        pair = (end.joint_tolerance, end.position_tolerance)
-        return tuple(np.inf if tolerance is None else tolerance for tolerance in pair)
+        return _or_infinite(end.joint_tolerance), _or_infinite(end.position_tolerance)
 
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
@@ -100,8 +102,8 @@ class PlanningProblem:
 
     def errors(self, q: np.ndarray) -> tuple[float, float]:
         """max_j |q_j - q_gj| [rad] and |X - X_g| [m]."""
-        point = end_effector(self.placed, q)
-        return largest_joint_error(q, self.goal), float(np.linalg.norm(point - self.goal_point))
+        offset = end_effector(self.placed, q) - self.goal_point
+        return float(largest_joint_error(q, self.goal)), float(np.linalg.norm(offset))
 
     def repels_at_goal(self, step: int) -> bool:
         """Whether an obstacle repels the arm at its goal."""
@@ -168,13 +170,17 @@ def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:
 
 def _attraction(
     placed: PlacedArm, chosen: Attraction, position: np.ndarray, joints: np.ndarray
-) -> Sum:
+) -> Attractions:
     return Sum(
-        [
+        (
             PositionAttraction(placed, position, chosen.gain * chosen.position_weight),
             JointAttraction(joints, chosen.gain * chosen.joint_weight),
-        ]
+        )
     )
+
+
+def _or_infinite(tolerance: float | None) -> float:
+    return np.inf if tolerance is None else tolerance
 
 
 def _numbers(chosen: Repulsion) -> tuple[float, float, float, Combination]:

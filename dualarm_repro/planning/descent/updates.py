@@ -9,6 +9,7 @@ from itertools import product
 
 import numpy as np
 
+from ...errors import InputError
 from ..field.potentials import Potential
 from ..settings import Update, UpdateRule
 
@@ -51,12 +52,14 @@ def gradient_step(
     partial derivatives, Pacific J. Math. 16, 1966. Where none is left that rounding could not
     feign, or after the last halving, q stays: at a minimum, or on a crease of U.
     """
+    if update.gain is None:
+        raise InputError("Update", "gain", None, "a number: the rule gradient takes it")
     g = potential.gradient(q, step)
-    length = np.linalg.norm(g)
+    length = float(np.linalg.norm(g))
     if length == 0.0:
         return q
     t = min(update.gain, update.max_step / length)
-    here = potential.value(q, step)
+    here = float(potential.value(q, step))
     for _ in range(update.max_halvings + 1):
         trial = np.clip(q - t * g, lower, upper)
         predicted = g @ (trial - q)
@@ -93,7 +96,7 @@ def neighbour_step(
     """argmin of U over the 3^nq neighbours q + delta {0, -1, 1}^nq."""
     offsets = update.max_step * np.array(list(product(CHANGES, repeat=len(q))))
     neighbours = np.clip(q + offsets, lower, upper)
-    values = potential.value(neighbours, step)
+    values = np.asarray(potential.value(neighbours, step))
     best = 0
     for k, value in enumerate(values):
         if value < values[best] * (1.0 - TIE):

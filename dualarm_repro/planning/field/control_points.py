@@ -8,13 +8,13 @@ checks.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arms import Arm
-from ...errors import InputError
+from ...errors import InputError, UnknownNameError
 from ...scene.bodies import PlacedArm
 from ...scene.posing import link_frames, links_of, place_cores
 from ..settings import PointSet
@@ -71,9 +71,14 @@ def control_points(
         names, joint, local, radii = links_of(arm)
     elif choice == "five_links":
         names, joint, local, radii = _links(arm, range(1, 6))
-    else:
+    elif isinstance(choice, str):
         named = {"end_effector": [arm.nq + 1], "frames_2_6": range(2, 7), "frames_1_5": range(1, 6)}
-        names, joint, local, radii = _origins(arm, named.get(choice, choice))
+        if choice not in named:
+            known = f"one of {', '.join(get_args(PointSet))}"
+            raise UnknownNameError(f"arm {arm.name}", "control points", choice, known)
+        names, joint, local, radii = _origins(arm, named[choice])
+    else:
+        names, joint, local, radii = _origins(arm, choice)
     if radius is not None:
         radii = np.full(len(names), radius)
     weight = np.ones(len(names)) if weights is None else np.array(weights, dtype=float)

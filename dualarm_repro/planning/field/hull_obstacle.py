@@ -34,7 +34,7 @@ class JointCircles(NamedTuple):
 
     frames: tuple[int, ...]
     radii: tuple[float, ...]
-    count: int
+    per_circle: int
     containing_axis: bool = False
 
 
@@ -51,8 +51,8 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
     at_flange = number[:, np.newaxis] > arm.nq
     centres = np.where(at_flange, arm.chain.translation[-1], 0.0)
     axes = np.eye(3)[[0 if circles.containing_axis else 2] * len(number)]
-    local = circle_points(centres, axes, circles.radii, circles.count)
-    frames = link_frames(arm.chain, base_of(placed), q)[:, np.repeat(carrier, circles.count)]
+    local = circle_points(centres, axes, circles.radii, circles.per_circle)
+    frames = link_frames(arm.chain, base_of(placed), q)[:, np.repeat(carrier, circles.per_circle)]
     return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
 
 

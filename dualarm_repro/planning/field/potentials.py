@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -121,8 +121,8 @@ class PointRepulsion:
 
     def acting(self, q: np.ndarray, step: int = 0) -> tuple[str, ...]:
         """Names of the shapes that repel at one configuration."""
-        acts = self._shares(q, step).any(axis=0)
-        return tuple(name for name, on in zip(self.obstacles.names, acts, strict=True) if on)
+        acting = np.flatnonzero(self._shares(q, step).any(axis=0))
+        return tuple(self.obstacles.names[m] for m in acting)
 
     def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
@@ -168,11 +168,14 @@ class PointRepulsion:
         return chosen
 
 
+Parts = TypeVar("Parts", bound=Sequence[Potential], covariant=True)
+
+
 @dataclass(frozen=True, eq=False)
-class Sum:
+class Sum(Generic[Parts]):
     """U = sum of the parts."""
 
-    parts: Sequence[Potential]
+    parts: Parts
 
     def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
         """U."""
@@ -180,4 +183,4 @@ class Sum:
 
     def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
         """dU/dq (nq,)."""
-        return sum(part.gradient(q, step) for part in self.parts)
+        return sum((part.gradient(q, step) for part in self.parts), np.zeros_like(q))

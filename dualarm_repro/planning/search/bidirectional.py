@@ -64,8 +64,9 @@ def search(made: SearchProblem) -> SearchRecord:
     began = perf_counter()
     settings, ending = made.settings, made.settings.ending
     halves = [_Half(made, side) for side in range(2 if settings.two_sided else 1)]
-    closest, since, reason = np.inf, 0, None
-    for turn in range(ending.search_limit + 1):
+    closest, since, turn = np.inf, 0, 0
+    while True:
+        reason: StopReason | None = None
         ends = [half.path[-1] for half in halves]
         target = ends[1] if settings.two_sided else made.goal
         gap = float(np.linalg.norm(ends[0] - target))
@@ -86,6 +87,7 @@ def search(made: SearchProblem) -> SearchRecord:
         if settings.two_sided:
             before = settings.order is UpdateOrder.BEFORE
             halves[1].move(halves[1].resultant(ends[0] if before else halves[0].path[-1], turn))
+        turn += 1
     return SearchRecord(
         tuple(np.array(half.path) for half in halves),
         tuple(np.array(half.clearance) for half in halves),
@@ -102,10 +104,11 @@ class _Half:
     def __init__(self, made: SearchProblem, side: int) -> None:
         self._made, self._side = made, side
         self.path = [made.start if side == 0 else made.goal]
-        self.clearance, self.factor = [], []
+        self.clearance: list[np.ndarray] = []
+        self.factor: list[np.ndarray] = []
         self.flips = 0
         self._flip_distance = np.full(len(made.points.joint), np.inf)
-        self._direction = None
+        self._direction: np.ndarray | None = None
 
     def resultant(self, target: np.ndarray, turn: int) -> np.ndarray:
         """F_att + F_rep at the end of the half, whose distances and gain factors are noted."""

@@ -22,8 +22,8 @@ from ..arm_path import ArmPath
 from ..descent.outcome import leaves_limits
 from ..descent.termination import StopReason
 from ..field.control_points import control_points
-from ..field.hull_obstacle import JointCircles
-from ..field.obstacles import obstacles_of
+from ..field.hull_obstacle import HullTrack, JointCircles
+from ..field.obstacles import Obstacles, obstacles_of
 from ..master_slave import CoordinatedPlan, Task
 from ..settings import Count, Share
 from .bidirectional_compiled import plan_bidirectional_compiled
@@ -114,8 +114,8 @@ def spliced(search: SearchPlan, settings: TwoArmSettings) -> SplicedPlan:
 
 
 def plan_arms_bidirectional(
-    scene: Scene, tasks: Mapping[str, Task], leave_out: tuple[str, ...] = ()
-) -> CoordinatedPlan:
+    scene: Scene, tasks: Mapping[str, Task[TwoArmSettings]], leave_out: tuple[str, ...] = ()
+) -> CoordinatedPlan[SplicedPlan]:
     """Plan one arm, or a master and its slave, in the order of ``tasks``.
 
     Settings of the tasks are :class:`TwoArmSettings`; those of the slave say how it sees the
@@ -131,20 +131,29 @@ def plan_arms_bidirectional(
         raise InputError("bidirectional", "tasks", list(tasks), "one arm, or a master and a slave")
     obstacles = obstacles_of(scene, leave_out)
     (first, task), *rest = tasks.items()
-    ends = arms[first], task.start, task.goal, obstacles, task.settings
-    master = spliced(plan_bidirectional_compiled(*ends), task.settings)
+    master = _planned(arms[first], task, obstacles)
     if not rest:
         return CoordinatedPlan(scene, {first: master}, {first: JointPath(master.path)})
     ((second, task),) = rest
     spread = task.settings.spread or max(1, len(master.path) // 2)
     circles, both = joint_circles(arms[first].arm, task.settings), task.settings.two_sided
     hulls = hull_tracks(arms[first], master.path, circles, spread, both)
-    ends = arms[second], task.start, task.goal, obstacles, task.settings
-    slave = spliced(plan_bidirectional_compiled(*ends, hulls), task.settings)
+    slave = _planned(arms[second], task, obstacles, hulls)
     paths = dict(zip(tasks, _played(master.path, slave, spread), strict=True))
     played = {name: JointPath(path) for name, path in paths.items()}
     plans = {first: replace(master, path=paths[first]), second: replace(slave, path=paths[second])}
     return CoordinatedPlan(scene, plans, played)
+
+
+def _planned(
+    placed: PlacedArm,
+    task: Task[TwoArmSettings],
+    obstacles: Obstacles,
+    hulls: tuple[HullTrack, HullTrack] | None = None,
+) -> SplicedPlan:
+    ends = task.start, task.goal
+    found = plan_bidirectional_compiled(placed, *ends, obstacles, task.settings, hulls)
+    return spliced(found, task.settings)
 
 
 def _played(master: np.ndarray, slave: SplicedPlan, spread: int) -> tuple[np.ndarray, np.ndarray]:

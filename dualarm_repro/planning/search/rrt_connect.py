@@ -8,6 +8,7 @@ ICRA 2000; I. A. Sucan, M. Moll, L. E. Kavraki, The Open Motion Planning Library
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +16,12 @@ from numpy.typing import ArrayLike
 from ...errors import UnsupportedArmError
 from ...scene import Scene, distances
 from ..checks.contact_check import SAMPLING
+
+
+class _State(Protocol):
+    """A configuration of OMPL."""
+
+    def __getitem__(self, joint: int) -> float: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +73,10 @@ def plan_rrt_connect(
     space.setBounds(bounds)
     checks = 0
 
-    def vector(state: object) -> np.ndarray:
+    def vector(state: _State) -> np.ndarray:
         return np.array([state[j] for j in range(scene.nq)])
 
-    def is_free(state: object) -> bool:
+    def is_free(state: _State) -> bool:
         nonlocal checks
         checks += 1
         return bool(distances(scene, vector(state)).min() > 0.0)

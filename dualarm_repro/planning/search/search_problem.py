@@ -63,8 +63,8 @@ def search_problem(
         moves by itself, or links instead of points.
     """
     arm = placed.arm
-    ends = [_configuration(placed, *pair) for pair in (("start", start), ("goal", goal))]
-    for field, q in zip(("start", "goal"), ends, strict=True):
+    start, goal = (_configuration(placed, *pair) for pair in (("start", start), ("goal", goal)))
+    for field, q in (("start", start), ("goal", goal)):
         if settings.enforce_limits and not arm.within_limits(q):
             raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
     points = control_points(arm, settings.control_points)
@@ -80,9 +80,8 @@ def search_problem(
     if (points.local[:, 0] != points.local[:, 1]).any():
         named = settings.control_points
         raise InputError("search_problem", "control_points", named, "points, not links")
-    return SearchProblem(
-        placed, *ends, obstacles, settings, points, (NO_HULL, NO_HULL) if hulls is None else hulls
-    )
+    hulls = (NO_HULL, NO_HULL) if hulls is None else hulls
+    return SearchProblem(placed, start, goal, obstacles, settings, points, hulls)
 
 
 def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:

@@ -39,7 +39,8 @@ def draw_goals(
     """
     arm = scene.arms[0].arm
     rejected: Counter[str] = Counter({"beyond reach": 0, "outside limits": 0, "in contact": 0})
-    postures, points = [], []
+    postures: list[np.ndarray] = []
+    points: list[np.ndarray] = []
     for _ in range(_MOST_DRAWS):
         if len(postures) == count:
             break

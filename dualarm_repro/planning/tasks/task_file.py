@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Generic, Literal, TypeVar, overload
 
 import numpy as np
 from pydantic import (
@@ -37,6 +37,8 @@ from .postures import Elbow, Tool, posture
 from .tip_goal import REACHED, tip_posture
 
 Joints = list[Radians]
+_Settings = TypeVar("_Settings", bound=Settings)
+_Settings_co = TypeVar("_Settings_co", bound=Settings, covariant=True)
 
 
 class PostureEntry(StrictModel):
@@ -65,10 +67,7 @@ class PostureEntry(StrictModel):
             near = np.zeros(placed.arm.nq) if self.reference is None else self.reference
             found = tip_posture(placed, self.position, near, best_effort=self.best_effort)
             return found.q, found.residual if found.residual > REACHED else 0.0
-        return self._with_tool(placed), 0.0
-
-    def _with_tool(self, placed: PlacedArm) -> np.ndarray:
-        return posture(
+        q = posture(
             placed,
             self.position,
             self.tool,
@@ -76,6 +75,7 @@ class PostureEntry(StrictModel):
             last_joint=self.last_joint,
             reference=self.reference,
         )
+        return q, 0.0
 
 
 # Told apart beforehand, so that an error speaks of what was meant.
@@ -119,18 +119,28 @@ class ReadTask:
 
 
 @dataclass(frozen=True, eq=False)
-class TaskSet:
+class TaskSet(Generic[_Settings_co]):
     """A scene and the tasks in it; ``settings`` is None if the file has none."""
 
     scene: Scene
     tasks: dict[str, ReadTask]
-    settings: Settings | None
+    settings: _Settings_co | None
     leave_out: tuple[str, ...]
     master_points: MasterPoints
     radius: float | None
 
 
-def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet:
+@overload
+def load_tasks(path: str | Path) -> TaskSet[APFSettings]:
+    """With settings of the potential field planners."""
+
+
+@overload
+def load_tasks(path: str | Path, kind: type[_Settings]) -> TaskSet[_Settings]:
+    """With settings of that kind."""
+
+
+def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet[Settings]:
     """Read a task file, or a scene file whose arms have start and goal.
 
     Parameters

@@ -9,6 +9,7 @@ from ...scene import JointPath, PlacedArm
 from ..field.control_points import control_points, end_effector, ends_of
 from ..field.obstacles import Obstacles
 from ..plan import Plan
+from ..settings import PointSet
 
 
 def instants(plan: Plan, track: JointPath) -> np.ndarray:
@@ -33,7 +34,7 @@ def tips_apart(
     return np.linalg.norm(mine - end_effector(other, track.at(times)), axis=1)
 
 
-def to_obstacles(plan: Plan, points: str, obstacles: Obstacles) -> np.ndarray:
+def to_obstacles(plan: Plan, points: PointSet, obstacles: Obstacles) -> np.ndarray:
     """Signed distance of every control point to the nearest obstacle along a plan (N, K) [m].
 
     Parameters

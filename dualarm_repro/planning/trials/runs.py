@@ -85,14 +85,18 @@ def run_trials(
     ConfigurationError, InputError
         As for a single plan from ``placed.start``, about which the starts are thought to lie.
     """
-    made = problem(placed, placed.start, placed.goal, obstacles, settings)
+    start, goal = placed.start, placed.goal
+    if start is None or goal is None:
+        field = "start" if start is None else "goal"
+        raise InputError(f"arm {placed.name}", field, None, "a configuration")
+    made = problem(placed, start, goal, obstacles, settings)
     count, clear = len(starts), ~touching(made, starts)
     nothing, never = np.zeros(count, dtype=int), np.zeros(count, dtype=bool)
     reason = np.full(count, TOUCHES, dtype=object)
     runs = Runs(reason, nothing, starts.copy(), np.zeros(count), never, never.copy())
     if not clear.any():
         return runs
-    batch = plan_batch(placed, starts[clear], placed.goal, obstacles, settings)
+    batch = plan_batch(placed, starts[clear], goal, obstacles, settings)
     reasons = np.array(batch.reason, dtype=object)
     ends = (reasons, batch.steps, batch.last, batch.gradient_norm, batch.activations > 0)
     return runs.replaced(clear, Runs(*ends, batch.rescued))

@@ -25,8 +25,9 @@ def yardstick(
     if find_spec(PACKAGE) is None:
         return {}
     sampled = plan_rrt_connect(scene, start, goal, int(rng.integers(2**31 - 2)), most)
+    path = sampled.path
     return {
         f"{YARDSTICK}_planner": sampled.reached,
-        f"{YARDSTICK}_truth": bool(sampled.reached and contact_check(scene, sampled.path).free),
+        f"{YARDSTICK}_truth": path is not None and contact_check(scene, path).free,
         f"{YARDSTICK}_checks": sampled.checks,
     }

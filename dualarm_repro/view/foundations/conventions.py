@@ -85,8 +85,15 @@ def frames_page(name: str, rng: np.random.Generator) -> Page:
     ----------
     name
         An arm of ``data/robots`` with a standard table.
+
+    Raises
+    ------
+    UnsupportedArmError
+        It has none.
     """
     robot = load_robot_file(data_path("robots", f"{name}.yaml"))
+    if not isinstance(robot, DHRobot):
+        raise UnsupportedArmError(f"{name}: not an arm of a Denavit-Hartenberg table")
     modified = in_modified_convention(robot)
     residual = dh.forward_kinematics(robot) - dh.forward_kinematics(modified)
     residual = residual.applyfunc(sp.simplify)
@@ -127,9 +134,9 @@ def _draw_frames(ax: Any, robot: DHRobot) -> None:
         names.setdefault(tuple(origin.round(6)), []).append(str(k))
         for column, color, length in _AXES:
             _draw_axis(ax, origin, length * frame[:3, column], color)
-    for origin, labels in names.items():
+    for place, labels in names.items():
         text = f"{{{', '.join(labels)}}}"
-        ax.annotate(text, origin, (-7, -14), textcoords="offset points", ha="right", fontsize=9)
+        ax.annotate(text, place, (-7, -14), textcoords="offset points", ha="right", fontsize=9)
     ax.set(title=f"{robot.convention} convention", xlabel="x [m]", aspect="equal")
     ax.set_ylabel("z [m]" if robot.convention == "standard" else "")
     ax.margins(0.18)

@@ -17,6 +17,7 @@ from ..card import figure_html
 from ..page import Page
 from ..style import BLACK, ORANGE, RED, SKY, house_style
 
+_Draw = Callable[[np.random.Generator], Shape]
 _UP = np.array([0.0, 0.0, 1.0])
 _STEP = 1e-6  # of the central differences [m] or [rad]
 _POINTS = 2000
@@ -33,7 +34,7 @@ def agreement_with_coal(count: int, rng: np.random.Generator) -> pd.DataFrame:
         Index: kinds of the two shapes; columns: pairs, share that penetrates, largest difference of
         the signed distance [m].
     """
-    kinds = {
+    kinds: dict[str, tuple[_Draw, _Draw]] = {
         "capsule, capsule": (_capsule, _capsule),
         "sphere, capsule": (_sphere, _capsule),
         "sphere, box": (_sphere, _box),
@@ -92,7 +93,7 @@ def field_page(rng: np.random.Generator) -> Page:
 def crease_page() -> Page:
     """A capsule on a revolute joint between two obstacles: both distances, and their minimum."""
     link = Capsule((0.25, 0.0, 0.0), (0.9, 0.0, 0.0), 0.06)
-    obstacles = {
+    obstacles: dict[str, Shape] = {
         "sphere": Sphere((0.55, 0.75, 0.0), 0.12),
         "box": Box((0.75, -0.45, 0.1), (0.3, 0.25, 0.4)),
     }
@@ -100,10 +101,11 @@ def crease_page() -> Page:
     found = {name: _along_turn(link, shape, q) for name, shape in obstacles.items()}
     distance = np.array([d for d, _ in found.values()])
     slope = np.array([g for _, g in found.values()])
-    error = max(
-        np.abs(_central(lambda at, s=s: _along_turn(link, s, at)[0], q) - found[name][1]).max()
-        for name, s in obstacles.items()
-    )
+
+    def distances_to_all(at: np.ndarray) -> np.ndarray:
+        return np.array([_along_turn(link, shape, at)[0] for shape in obstacles.values()])
+
+    error = np.abs(_central(distances_to_all, q) - slope).max()
     switch = int(np.flatnonzero(np.diff(distance.argmin(axis=0)))[0])
     order = distance.argmin(axis=0)[switch : switch + 2]
     before, after = slope[order[0], switch], slope[order[1], switch + 1]
