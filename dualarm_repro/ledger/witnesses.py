@@ -29,7 +29,8 @@ def is_open(item_id: str, obtained: Mapping[str, Any]) -> bool:
     thresholds = REGISTRY.look(item_id, "thresholds").thresholds
     bounds = {name: entry.value for name, entry in thresholds.items()}
     evidence = Evidence(dict(obtained), REGISTRY.printed(item_id), bounds)
-    rules = REGISTRY.checker(item_id).rules
+    checker = REGISTRY.checker(item_id)
+    rules = checker.rules if checker else ()
     outcomes = {rule.outcome(evidence) for rule in rules if rule.role is Role.SUPPORTS}
     return Outcome.OPEN in outcomes and Outcome.FAILS not in outcomes
 

@@ -77,16 +77,16 @@ VARIANTS: dict[str, Variant] = {
 _DELICATE = "a descent along a crease amplifies round-off"
 #: How outcomes and motions are compared with stored ones. A descent that runs along a crease of
 #: the potential, or halts on one, amplifies round-off: another processor may end such a run
-#: elsewhere. In 128 arrangements computed twice, with other machine code, two differed: a gradient
-#: by 2e-6 of itself, a path by 1.5e-6 and a distance by 7e-6 m.
+#: elsewhere. Of 1000 arrangements computed twice, with other machine code, six differed: a gradient
+#: by 2.4e-6 of itself, a path by 1.5e-6, a distance by 7e-6 m, mean steps by 0.5 %, and no count.
 DESCENTS = (
-    Comparison("*_gradient", _DELICATE, absolute=0.05),
-    Comparison("*_steps_*", _DELICATE, relative=0.05),
-    Comparison("*_length", _DELICATE, relative=1e-3),
-    Comparison("*_path", _DELICATE, relative=1e-3),
-    Comparison("cores_*", _DELICATE, absolute=1e-3),
-    Comparison("flanges_apart", _DELICATE, absolute=1e-3),
-    Comparison("slave_*", _DELICATE, absolute=1e-3),
+    Comparison("*_gradient", _DELICATE, relative=1e-4),
+    Comparison("*_steps_*", _DELICATE, relative=0.02),
+    Comparison("*_length", _DELICATE, relative=1e-4),
+    Comparison("*_path", _DELICATE, relative=1e-4),
+    Comparison("cores_*", _DELICATE, absolute=1e-4),
+    Comparison("flanges_apart", _DELICATE, absolute=1e-4),
+    Comparison("slave_*", _DELICATE, absolute=1e-4),
     *(
         Comparison(f"*_{name}", "one run may end on the other side", absolute=1)
         for name in ("missed", "trapped", "stationary", "held", "used", "rescued")

@@ -57,7 +57,7 @@ def free_minima(
     arm = placed.arm
     for start, goal in zip(*(arm.random_configurations(pairs, rng) for _ in range(2)), strict=True):
         position = PositionAttraction(placed, arm.positions(goal), gain)
-        field = Sum([position, JointAttraction(goal, gain * weight)])
+        field = Sum((position, JointAttraction(goal, gain * weight)))
         end = descend(field, start)
         if np.abs(end - goal).max() > arrived:
             elsewhere += 1

@@ -64,8 +64,9 @@ def attempt(
     placed: PlacedArm, start: np.ndarray, obstacles: Obstacles, settings: APFSettings
 ) -> Plan | None:
     """A plan to the goal of the arm, or None where its start (nq,) touches an obstacle."""
+    goal = _given(placed, "goal")
     try:
-        return plan_apf_compiled(placed, start, placed.goal, obstacles, settings)
+        return plan_apf_compiled(placed, start, goal, obstacles, settings)
     except InputError:
         return None
 
@@ -85,10 +86,7 @@ def run_trials(
     ConfigurationError, InputError
         As for a single plan from ``placed.start``, about which the starts are thought to lie.
     """
-    start, goal = placed.start, placed.goal
-    if start is None or goal is None:
-        field = "start" if start is None else "goal"
-        raise InputError(f"arm {placed.name}", field, None, "a configuration")
+    start, goal = _given(placed, "start"), _given(placed, "goal")
     made = problem(placed, start, goal, obstacles, settings)
     count, clear = len(starts), ~touching(made, starts)
     nothing, never = np.zeros(count, dtype=int), np.zeros(count, dtype=bool)
@@ -100,3 +98,11 @@ def run_trials(
     reasons = np.array(batch.reason, dtype=object)
     ends = (reasons, batch.steps, batch.last, batch.gradient_norm, batch.activations > 0)
     return runs.replaced(clear, Runs(*ends, batch.rescued))
+
+
+def _given(placed: PlacedArm, field: str) -> np.ndarray:
+    """Start or goal of a placed arm (nq,) [rad]."""
+    found = getattr(placed, field)
+    if found is None:
+        raise InputError(f"arm {placed.name}", field, None, "a configuration")
+    return found
