@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 import yaml
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
@@ -21,6 +21,20 @@ class StrictModel(BaseModel):
     """Base: unknown fields are errors, so that a misspelt field cannot be ignored."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def checked(cls, path: Path, content: Any) -> Self:
+        """The content of a file, checked.
+
+        Raises
+        ------
+        DataFileError
+            With the first offending field, its value and what was expected.
+        """
+        try:
+            return cls.model_validate(content)
+        except ValidationError as error:
+            raise from_validation(path, error) from None
 
 
 @cache

@@ -16,11 +16,10 @@ from pydantic import (
     Field,
     PlainSerializer,
     TypeAdapter,
-    ValidationError,
     model_validator,
 )
 
-from ..datafiles import StrictModel, Text, from_validation, read_yaml
+from ..datafiles import StrictModel, Text, read_yaml
 from ..errors import DataFileError
 from .angle import EXPECTED, Angle
 
@@ -224,10 +223,7 @@ def load_robot_file(path: Path) -> RobotFile:
     kind = content.get("kind", "nothing")
     if not isinstance(kind, str) or kind not in _KINDS:
         raise DataFileError(path, "kind", kind, f"one of {', '.join(_KINDS)}")
-    try:
-        return _KINDS[kind].model_validate(content)
-    except ValidationError as error:
-        raise from_validation(path, error) from None
+    return _KINDS[kind].checked(path, content)
 
 
 def json_schema() -> dict[str, Any]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ..datafiles import StrictModel, Text, from_validation, read_yaml
+from ..datafiles import StrictModel, Text, read_yaml
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Triple = tuple[Number, Number, Number]
@@ -50,11 +50,7 @@ def load_scenario(path: Path) -> Scenario:
     DataFileError
         With the first offending field, its value and what was expected.
     """
-    content = read_yaml(path)
-    try:
-        return Scenario.model_validate(content)
-    except ValidationError as error:
-        raise from_validation(path, error) from None
+    return Scenario.checked(path, read_yaml(path))
 
 
 def json_schema() -> dict[str, Any]:

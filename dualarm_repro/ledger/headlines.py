@@ -12,9 +12,9 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ..datafiles import StrictModel, Text, data_path, from_validation, read_yaml
+from ..datafiles import StrictModel, Text, data_path, read_yaml
 from ..errors import DataFileError
 from .reference import read_reference
 from .schema import load_paper
@@ -62,10 +62,7 @@ def headlines(path: Path | None = None) -> list[Headline]:
         With the first offending field, its value and what was expected.
     """
     path = path or data_path(_FILE)
-    try:
-        return HeadlineFile.model_validate(read_yaml(path)).headlines
-    except ValidationError as error:
-        raise from_validation(path, error) from None
+    return HeadlineFile.checked(path, read_yaml(path)).headlines
 
 
 def statements(path: Path | None = None) -> list[Statement]:

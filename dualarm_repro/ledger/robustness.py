@@ -38,6 +38,8 @@ _BASES = 6
 _PROBE = 0.01
 #: Relative change of all drawn numbers that no well-conditioned outcome notices.
 _NUDGE = 1e-10
+#: Relative difference of two misses that is none: round-off must not choose the way of a climb.
+_TIE = 1e-9
 
 
 def study_of(registry: Registry, item_id: str, samples: int | None = None) -> Study | None:
@@ -54,7 +56,7 @@ def study_of(registry: Registry, item_id: str, samples: int | None = None) -> St
         ``samples`` is not positive.
     """
     if samples is not None and samples < 1:
-        raise InputError("sensitivity", "samples", samples, "a positive number")
+        raise InputError("robustness", "samples", samples, "a positive number")
     item, checker = registry.look(item_id), registry.checker(item_id)
     if checker is None or not item.assumptions:
         return None

@@ -11,11 +11,10 @@ from pydantic import (
     BeforeValidator,
     Field,
     StringConstraints,
-    ValidationError,
     model_validator,
 )
 
-from ..datafiles import StrictModel, Text, from_validation, read_yaml
+from ..datafiles import StrictModel, Text, read_yaml
 
 Key = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$")]
 
@@ -250,11 +249,7 @@ def load_paper(path: Path) -> PaperFile:
     DataFileError
         With the first offending field, its value and what was expected.
     """
-    content = read_yaml(path)
-    try:
-        return PaperFile.model_validate(content)
-    except ValidationError as error:
-        raise from_validation(path, error) from None
+    return PaperFile.checked(path, read_yaml(path))
 
 
 def json_schema() -> dict[str, Any]:

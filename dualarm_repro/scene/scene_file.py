@@ -15,12 +15,11 @@ from pydantic import (
     BeforeValidator,
     Field,
     StringConstraints,
-    ValidationError,
 )
 
 from ..arms import load_arm
 from ..arms.angle import EXPECTED, Angle
-from ..datafiles import StrictModel, from_validation, read_yaml
+from ..datafiles import StrictModel, read_yaml
 from ..errors import DataFileError, InputError
 from .bodies import PlacedArm
 from .hull import ConvexHull
@@ -167,10 +166,7 @@ def load_scene(path: str | Path) -> Scene:
         A robot is no serial chain of revolute joints.
     """
     path = Path(path)
-    try:
-        content = SceneFile.model_validate(read_yaml(path))
-    except ValidationError as error:
-        raise from_validation(path, error) from None
+    content = SceneFile.checked(path, read_yaml(path))
     arms = [_placed(path, name, entry) for name, entry in content.arms.items()]
     obstacles = {name: _shape(path, name, entry) for name, entry in content.obstacles.items()}
     try:

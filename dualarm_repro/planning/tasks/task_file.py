@@ -22,11 +22,10 @@ from pydantic import (
     Discriminator,
     Field,
     Tag,
-    ValidationError,
     model_validator,
 )
 
-from ...datafiles import StrictModel, from_validation, read_yaml
+from ...datafiles import StrictModel, read_yaml
 from ...errors import DataFileError, InputError
 from ...scene import PlacedArm, Scene, load_scene
 from ...scene.scene_file import Name, Number, Point, Radians
@@ -162,10 +161,7 @@ def load_tasks(path: str | Path, kind: type[Settings] = APFSettings) -> TaskSet[
             raise DataFileError(path, "arms", list(scene.columns), "an arm with start and goal")
         file = TaskFile(scene=path.name, tasks=entries)
     else:
-        try:
-            file = TaskFile.model_validate(content)
-        except ValidationError as error:
-            raise from_validation(path, error) from None
+        file = TaskFile.checked(path, content)
         scene = load_scene(path.parent / file.scene)
     return TaskSet(
         scene,
