@@ -3,19 +3,19 @@
 from dataclasses import replace
 from pathlib import Path
 
-from dualarm_repro.planning import METHODS, plan_file, plan_master_slave
+from dualarm_repro.planning import METHODS, certified_clearance, plan_file, plan_master_slave
 
 
 def careful(given, tasks):
-    """Let the obstacles repel from farther and farther away, until whole links keep clear."""
-    for factor in (1.0, 1.5, 2.0, 3.0):
+    """Let the obstacles repel from farther and farther away, until whole links are certified."""
+    for factor in (1.0, 2.0, 4.0, 8.0):
         wider = {}
         for arm, task in tasks.items():
             repulsion = task.settings.repulsion
             repulsion = repulsion.changed(influence=factor * repulsion.influence)
             wider[arm] = replace(task, settings=task.settings.changed(repulsion=repulsion))
         found = plan_master_slave(given.scene, wider, leave_out=given.leave_out)
-        if found.links(0.02).minimum > 0.0:
+        if certified_clearance(found.scene, found.paths).lower > 0.0:
             break
     return found
 
@@ -28,4 +28,5 @@ for name in ("apf-improved", "apf-careful"):
     found = plan_file(tasks, name)
     print(f"{name}: {METHODS[name].description}")
     print(f"  arrived: {[bool(plan.reached) for plan in found.plans.values()]}")
-    print(f"  links at least {found.links(0.02).minimum:.4f} m apart, {len(found.index)} steps")
+    bounds = certified_clearance(found.scene, found.paths)
+    print(f"  links at least {bounds.lower:.4f} m apart, {len(found.index)} steps")

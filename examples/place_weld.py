@@ -4,9 +4,9 @@ import numpy as np
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.welding import (
+    GeneticSettings,
     Objective,
     Placement,
-    Settings,
     Tools,
     Torch,
     Workpiece,
@@ -31,7 +31,8 @@ grid = grid_optimum(fitness, box, spacing=0.2, starts=2, tolerance=1e-3)
 print(
     f"grid, refined: {grid.fitness:.4f} at {grid.position.round(3)}, {grid.evaluations} positions"
 )
-found = evolve(fitness, box, Settings(population=24, generations=12), np.random.default_rng(5))
+settings, rng = GeneticSettings(population=24, generations=12), np.random.default_rng(5)
+found = evolve(fitness, box, settings, rng)
 print(f"genetic algorithm: {found.fitness:.4f} at {found.best.round(3)}")
 drawn = fitness(np.random.default_rng(6).uniform(*box.T, (500, 3)))
 print(f"of 500 random positions {(drawn > 0).mean():.0%} are feasible, the best {drawn.max():.4f}")

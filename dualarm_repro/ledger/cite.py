@@ -27,7 +27,7 @@ _VENUE = {"article": "journal", "inproceedings": "booktitle"}
 #: BibTeX names a language, CSL-JSON takes its tag.
 _LANGUAGE = {"zh": "chinese"}
 #: What has a meaning in TeX and pybtex leaves as it is; it escapes the other signs itself.
-_TEX = {
+TEX = {
     "\\": r"\textbackslash{}",
     "{": r"\textbraceleft{}",
     "}": r"\textbraceright{}",
@@ -137,7 +137,7 @@ def _entry(kind: str, key: str, authors: Any, fields: dict[str, str | None]) -> 
 
 
 def _tex(text: str) -> str:
-    return "".join(_TEX.get(sign, sign) for sign in text)
+    return "".join(TEX.get(sign, sign) for sign in text)
 
 
 def _csl_name(name: str) -> dict[str, str]:

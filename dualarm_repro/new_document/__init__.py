@@ -10,12 +10,15 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Mapping
 from keyword import iskeyword
 from pathlib import Path
 from shutil import copy2, copytree, ignore_patterns
 from tempfile import TemporaryDirectory
 
+import yaml
+
+from .. import papers
 from ..errors import InputError, LedgerError, OutputError
 from .templates import fill
 
@@ -70,16 +73,18 @@ def new_document(name: str, title: str | None = None, root: Path | None = None) 
         The clone cannot compute the example.
     """
     root = _clone(root)
-    words = {"id": _usable(name, root), "title": " ".join((title or f"Document {name}").split())}
-    if title is not None and not words["title"]:
+    title = f"Document {name}" if title is None else title
+    words = {"id": _usable(name, root), "title": " ".join(title.split())}
+    if not words["title"]:
         raise InputError(_COMMAND, "--title", title, "a text")
     try:
         with TemporaryDirectory(dir=root, prefix=f".{_COMMAND}-") as folder:
             staged = Path(folder)
             _copy(root, staged)
+            copied = _contents(staged)
             _write(staged, words)
             _compute(staged, f"{name}.example")
-            return _move(staged, root)
+            return _move(staged, root, copied)
     except OSError as error:
         reason = error.strerror or str(error)
         raise OutputError(root, "clone", reason, "a folder that can be written") from None
@@ -97,10 +102,10 @@ def _clone(root: Path | None) -> Path:
 
 def _usable(name: str, root: Path) -> str:
     """The id, if it has the right form and names nothing in the clone."""
-    if not _ID.fullmatch(name) or iskeyword(name):
-        expected = "small letters, digits and _, a letter first, and no word of Python"
+    if not _ID.fullmatch(name) or iskeyword(name) or yaml.safe_load(name) != name:
+        expected = "small letters, digits and _, a letter first, and no word of Python or YAML"
         raise InputError(_COMMAND, "ID", name, expected)
-    taken = {path.stem for path in root.glob("data/papers/*.yaml")}
+    taken = {path.stem for path in root.glob("data/papers/*.yaml")} | set(vars(papers))
     taken |= {path.stem for path in root.glob("data/results/*")}
     taken |= {path.stem for path in root.glob("dualarm_repro/papers/*")}
     taken |= {path.stem for path in root.glob("book/*")}
@@ -157,20 +162,28 @@ def _compute(staged: Path, item_id: str) -> None:
             raise LedgerError(f"{_COMMAND}: the clone cannot compute {item_id}: {lines[-1]}")
 
 
-def _changed(staged: Path, root: Path) -> Iterator[Path]:
-    """What the copy has, and the clone has not or has otherwise, as relative paths."""
-    for path in sorted(staged.rglob("*")):
-        name = path.relative_to(staged)
-        if path.is_file() and "__pycache__" not in name.parts:
-            there = root / name
-            if not there.is_file() or there.read_bytes() != path.read_bytes():
-                yield name
+def _contents(folder: Path) -> dict[Path, bytes]:
+    """What the files of a folder hold, under their relative paths."""
+    paths = {path.relative_to(folder): path for path in sorted(folder.rglob("*"))}
+    return {
+        name: path.read_bytes()
+        for name, path in paths.items()
+        if path.is_file() and "__pycache__" not in name.parts
+    }
 
 
-def _move(staged: Path, root: Path) -> list[Path]:
-    """Move what has changed into the clone; if one file cannot be moved, all is as before."""
-    names = list(_changed(staged, root))
+def _move(staged: Path, root: Path, copied: Mapping[Path, bytes]) -> list[Path]:
+    """Move what was written into the clone; if one file cannot be moved, all is as before.
+
+    Raises
+    ------
+    LedgerError
+        Somebody changed one of these files in the clone meanwhile.
+    """
+    names = [name for name, text in _contents(staged).items() if copied.get(name) != text]
     before = {n: (root / n).read_bytes() if (root / n).is_file() else None for n in names}
+    if changed := [str(name) for name in names if before[name] != copied.get(name)]:
+        raise LedgerError(f"{_COMMAND}: changed meanwhile, so nothing is written: {changed[0]}")
     folders = [f for n in names for f in reversed((root / n).parents) if not f.exists()]
     moved: list[Path] = []
     try:

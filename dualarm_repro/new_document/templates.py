@@ -10,11 +10,12 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from ..ledger.cite import TEX
+
 _FOLDER = Path(__file__).resolve().parent / "files"
 _SUFFIX = ".jinja"
-#: What has a meaning in BibTeX and TeX.
-_TEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "^": r"\^{}", "~": r"\~{}"}
-_TEX |= {sign: f"\\{sign}" for sign in "&%$#_"}
+#: What has a meaning in TeX; BibTeX would count an escaped brace as one.
+_TEX = TEX | {"~": r"\textasciitilde{}", **{sign: f"\\{sign}" for sign in "&%#_"}}
 
 
 def fill(values: Mapping[str, Any]) -> dict[str, str]:

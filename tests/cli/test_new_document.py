@@ -15,7 +15,7 @@ from dualarm_repro.errors import LedgerError, OutputError
 from dualarm_repro.new_document import new_document
 
 ROOT = Path(__file__).parents[2]
-TITLE = 'On "arms" & <hands>: 50 % of $x_1$, {and} \\more'
+TITLE = 'On "arms" & <hands>: 50 % of $x_1$, {and} } \\more'
 CELL = re.compile(r"^```\{code-cell\} ipython3\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
@@ -78,8 +78,9 @@ def test_the_example_has_a_verdict(clone):
 
 def test_the_tests_of_the_clone_accept_it(clone):
     chosen = ("test_architecture", "ledger/test_completeness", "papers/test_ledger_of_papers",
-              "papers/test_trust", "view/test_schemas", "test_metadata")  # fmt: skip
-    words = "smith or real_ledger or generated or agree or crate_is_read or pybtex"
+              "papers/test_trust", "view/test_schemas", "test_metadata",
+              "book/test_foundations")  # fmt: skip
+    words = "smith or real_ledger or generated or agree or crate_is_read or pybtex or document_p"
     command = ("-m", "pytest", "-p", "no:cacheprovider", "-k", words)
     made = run(clone, *command, *(f"tests/{name}.py" for name in chosen))
     assert made.returncode == 0, made.stdout
@@ -112,7 +113,11 @@ def test_what_it_writes_is_formatted(clone):
         (["a-b"], ["a-b", "small letters"]),
         (["../smith"], ["../smith", "small letters"]),
         (["class"], ["class", "small letters"]),
+        (["on"], ["on", "small letters"]),
+        (["null"], ["null", "small letters"]),
+        (["show"], ["show", "names nothing"]),
         (["smith", "--title", " "], ["--title", "a text"]),
+        (["smith", "--title", ""], ["--title", "a text"]),
         (["smith", "--root", "/"], ["--root", "a clone"]),
         ([], ["Missing argument"]),
     ],
