@@ -50,7 +50,7 @@ ROWS_PER_PAIR = {
 
 
 class ControllerNumbers(NamedTuple):
-    """The settings as the kernels read them, choices by their :func:`..settings.code`."""
+    """The settings as the kernels read them; a choice is its number, see ``settings.code``."""
 
     feedback: float
     repetition: float

@@ -103,7 +103,7 @@ class Separation:
         Returns
         -------
         ndarray (P, K) [m]
-            In the order of :attr:`pairs`.
+            In the order of ``pairs``.
         """
         out, bodies = np.empty((len(centres), len(self.pairs))), self.bodies
         rows = self.pairs.rows
