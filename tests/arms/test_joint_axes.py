@@ -1,12 +1,13 @@
 """Exact link transforms, joint frames and axes, reach, and counted inverse kinematics."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
 import sympy as sp
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.arms.counted_inverse import counting_inverse
-from dualarm_repro.arms.dh import joint_symbols
+from dualarm_repro.arms.dh import _rotation_x, _rotation_y, _rotation_z, joint_symbols
 from dualarm_repro.arms.exact_chain import (
     chain_product,
     craig_parameters,
@@ -81,3 +82,14 @@ def test_every_call_of_the_inverse_is_counted():
     assert len(calls) == 2
     ARM.ik_branches(ARM.fk(Q)[np.newaxis])
     assert len(calls) == 2
+
+
+@pytest.mark.parametrize(
+    ("turned", "axis"),
+    [(_rotation_x, (1, 0, 0)), (_rotation_y, (0, 1, 0)), (_rotation_z, (0, 0, 1))],
+)
+def test_turns_about_an_axis(turned, axis):
+    found = np.array(turned(sp.Rational(7, 10)).evalf(), dtype=float)
+    np.testing.assert_allclose(found[:3, :3], pin.exp3(0.7 * np.array(axis)), atol=1e-15)
+    np.testing.assert_array_equal(found[3], [0, 0, 0, 1])
+    np.testing.assert_array_equal(found[:3, 3], 0)

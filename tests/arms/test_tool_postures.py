@@ -1,6 +1,7 @@
 """Postures that bring the flange to a point, with the tool as a rule asks."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,6 +28,30 @@ def test_posture_reaches_the_point_with_the_tool_as_asked(radius, azimuth, heigh
     assert q[5] == 0.0
     if choice != "nearest_branch":
         assert abs(q[3]) <= 0.5 * np.pi + 1e-9
+
+
+class TwoBranches:
+    """An arm whose inverse has two branches: the higher with theta_4 as given, the lower with 0."""
+
+    nq = 6
+
+    def __init__(self, angle):
+        self.found = np.zeros((1, 2, 6))
+        self.found[0, 0, 3] = angle
+
+    def ik_branches(self, poses, reference, within_limits):
+        return self.found.copy()
+
+    def joint_positions(self, q):
+        heights = np.where(q[:, 3] != 0.0, 2.0, 1.0)
+        return np.broadcast_to(heights[:, None, None], (len(q), 6, 3))
+
+
+@pytest.mark.parametrize(("beyond", "taken"), [(0.0, 0), (1e-8, 1), (-1e-8, 0)])
+def test_the_forearm_turns_by_a_right_angle_at_most(beyond, taken):
+    arm = TwoBranches(0.5 * np.pi + beyond)
+    q = tool_posture(arm, np.array([1.0, 0.0, 0.5]), "radial_horizontal")
+    np.testing.assert_array_equal(q, arm.found[0, taken])
 
 
 def test_posture_out_of_reach_is_none():

@@ -10,7 +10,10 @@ from dualarm_repro.planning.descent.termination import StopReason
 from dualarm_repro.planning.field.hull_obstacle import JointCircles, circles_on, hull_track
 from dualarm_repro.planning.field.obstacles import obstacles_of
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
-from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.search.bidirectional_compiled import (
+    plan_bidirectional_compiled,
+    search_compiled,
+)
 from dualarm_repro.planning.search.bidirectional_settings import GainRule, StepRule, Threshold
 from dualarm_repro.planning.search.failure import Failure, classify
 from dualarm_repro.scene import PlacedArm, Scene, Sphere
@@ -87,11 +90,20 @@ def test_halves_begin_at_the_ends_and_meet():
     assert plan.control_clearance > 0
 
 
-def test_one_sided_search_is_pushed_off_a_goal_near_an_obstacle():
+def test_one_sided_search_is_pushed_off_a_goal_near_an_obstacle(monkeypatch):
     plan = planned(**ONE_SIDED, repulsion={"gain": 10.0})
     assert plan.reason is StopReason.TRAPPED
     assert classify(plan) is Failure.DISPLACED_GOAL
     assert classify(planned()) is None
+    starts = []
+
+    def noted(made):
+        starts.append(made.start)
+        return search_compiled(made)
+
+    monkeypatch.setattr("dualarm_repro.planning.search.failure.search_compiled", noted)
+    assert classify(plan) is Failure.DISPLACED_GOAL
+    assert 0.0 < np.abs(starts[0] - plan.problem.goal).max() <= 1e-5  # it begins beside the goal
     hurried = {**ONE_SIDED, "ending": {"search_limit": 10}}
     assert classify(planned(**hurried)) is Failure.NO_REST
 

@@ -8,6 +8,7 @@ from two_spheres import GOAL, ONE_SIDED, START, obstacles, placed_arm, settings,
 
 from dualarm_repro.planning.checks.recorded_steps import step_difference
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
+from dualarm_repro.planning.search.rrt_connect import SampledPlan
 from dualarm_repro.planning.trials.campaign import campaign
 from dualarm_repro.planning.trials.yardstick import yardstick
 from dualarm_repro.scene import Scene
@@ -55,6 +56,19 @@ def test_the_yardstick_says_what_it_checked():
     found = yardstick(scene(), START, START + 0.05, np.random.default_rng(0), 2000)
     assert found.keys() == {"rrt_connect_planner", "rrt_connect_truth", "rrt_connect_checks"}
     assert found["rrt_connect_checks"] > 0
+
+
+@pytest.mark.skipif(find_spec("ompl") is None, reason="OMPL is not installed")
+def test_the_yardstick_has_the_seed_of_the_stream(monkeypatch):
+    seeds = []
+
+    def sampled(scene, start, goal, seed, most):
+        seeds.append(seed)
+        return SampledPlan(None, 0)
+
+    monkeypatch.setattr("dualarm_repro.planning.trials.yardstick.plan_rrt_connect", sampled)
+    yardstick(scene(), START, GOAL, np.random.default_rng(0), 10)
+    assert seeds == [int(np.random.default_rng(0).integers(2**31 - 2))]
 
 
 def test_without_the_package_there_is_no_yardstick(monkeypatch):
