@@ -28,7 +28,7 @@ book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.
 
 test: $(VENV)/.installed  ## run the whole test suite
 	$(BIN)/python tools/prerun.py --records
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --dist loadfile
 
 verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify

@@ -27,8 +27,9 @@ FLOORS = (
     ("arms",),
     ("scene",),
     ("planning", "control", "welding"),
-    ("view", "new_document"),
+    ("view",),
     ("papers",),
+    ("new_document",),
     ("cli",),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
