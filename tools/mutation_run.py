@@ -8,7 +8,7 @@ import re
 import resource
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from shutil import copytree, ignore_patterns
 from signal import SIGINT, SIGKILL, SIGTERM, SIGXCPU
@@ -162,7 +162,11 @@ def _ended(code: int) -> str | None:
 
 
 def run(
-    folder: Path, per_room: int = PER_ROOM, seed: int = SEED, limit: int | None = None
+    folder: Path,
+    per_room: int = PER_ROOM,
+    seed: int = SEED,
+    limit: int | None = None,
+    noticed: Mapping[tuple[str, int, str, str], str] | None = None,
 ) -> Iterator[dict[str, Any]]:
     """Every mutant of the sample with what killed it, one after the other.
 
@@ -170,13 +174,18 @@ def run(
     ----------
     limit
         So many mutants only, evenly out of the sample, and by tests alone.
+    noticed
+        What killed mutants, by file, line, old and new; these are not tried again, and the others
+        by tests alone.
     """
     drawn = sample(ROOT, ROOMS, per_room, seed)
     if limit is not None:
         drawn = drawn[:: max(1, len(drawn) // limit)][:limit]
-    known, copy = equivalents(), Copy(folder, recompute=limit is None)
+    known, noticed = equivalents(), noticed or {}
+    copy = Copy(folder, recompute=limit is None and not noticed)
     for mutant in drawn:
         row = {**mutant._asdict(), "killed_by": None, "equivalent": excused(mutant, known)}
         if row["equivalent"] is None:
-            row["killed_by"] = copy.killer(mutant)
+            before = noticed.get((mutant.file, mutant.line, mutant.old, mutant.new))
+            row["killed_by"] = before or copy.killer(mutant)
         yield row

@@ -15,7 +15,7 @@ import mutation_run
 
 from dualarm_repro.ledger.files import to_json, write_text
 from dualarm_repro.ledger.trust import DIRECTIONS, Tally, tally
-from dualarm_repro.ledger.trust.report import report, report_path
+from dualarm_repro.ledger.trust.report import digest_of, read_report, report, report_path
 from dualarm_repro.papers import load
 
 #: Mutants of the quick form, which computes no stored cell again.
@@ -27,6 +27,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} mutants, nothing written")
     parser.add_argument("--out", type=Path, default=None, help="file to write")
+    parser.add_argument(
+        "--survivors",
+        action="store_true",
+        help="of the mutants only those that the stored outcome calls unnoticed, if the methods "
+        "are the same",
+    )
     asked = parser.parse_args(arguments)
     registry = load()
     tallies = {
@@ -36,9 +42,16 @@ def main(arguments: list[str] | None = None) -> int:
     for name, one in tallies.items():
         for line in one.violations:
             print(f"{name}: unnoticed: {line}", flush=True)
+    stored = read_report() if asked.survivors else None
+    if asked.survivors and (stored is None or stored["code"] != digest_of(mutation_run.ROOMS)):
+        print("no stored outcome of these methods", file=sys.stderr)
+        return 2
+    noticed = {(r["file"], r["line"], r["old"], r["new"]): r["killed_by"]
+               for r in (stored["mutants"] if stored else ()) if r["killed_by"]}  # fmt: skip
     rows = []
     with TemporaryDirectory() as folder:
-        for row in mutation_run.run(Path(folder), limit=QUICK if asked.quick else None):
+        limit = QUICK if asked.quick else None
+        for row in mutation_run.run(Path(folder), limit=limit, noticed=noticed):
             fate = row["killed_by"] or row["equivalent"] or "SURVIVED"
             where = f"{row['file']}:{row['line']} {row['old']} -> {row['new']}"
             print(f"method: {where}: {fate}", flush=True)

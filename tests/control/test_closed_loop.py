@@ -7,7 +7,7 @@ from dualarm_repro.control.circle import Circles
 from dualarm_repro.control.controller import VelocityController
 from dualarm_repro.control.problem import NoSolution
 from dualarm_repro.control.settings import ControllerSettings
-from dualarm_repro.control.simulate import pseudo_inverse, simulate
+from dualarm_repro.control.simulate import UNDISTURBED, pseudo_inverse, simulate
 from dualarm_repro.control.solvers import solve
 from dualarm_repro.errors import ConfigurationError, InputError, UnknownNameError
 from dualarm_repro.papers.patent.document import frozen
@@ -161,3 +161,7 @@ def test_circle_velocity_is_the_derivative(crossing):
         np.testing.assert_allclose(crossing.circles.at(t)[1], difference, atol=1e-8)
     np.testing.assert_allclose(crossing.circles.at(0.0)[0], crossing.system.tips(crossing.q0))
     np.testing.assert_allclose(crossing.circles.at(0.0)[1], 0.0)
+
+
+def test_no_step_of_an_undisturbed_run_has_a_row_of_noise():
+    assert UNDISTURBED.shape == (0, 0)
