@@ -9,7 +9,7 @@ import numpy as np
 from timing import OURS, Row, timed
 
 from dualarm_repro.papers.qiu.document import PRINTED, placed, repelling, truth_scene
-from dualarm_repro.papers.qiu.two_arms import Slave
+from dualarm_repro.papers.qiu.reading import Slave
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from dualarm_repro.planning.search.rrt_connect import plan_rrt_connect

@@ -13,10 +13,10 @@ from dualarm_repro import load_arm
 from dualarm_repro.arms.capsules import segment_capsule
 from dualarm_repro.welding import (
     Cell,
+    GeneticSettings,
     Jobs,
     Objective,
     Placement,
-    Settings,
     Tools,
     Torch,
     Workpiece,
@@ -55,7 +55,9 @@ def measure() -> Iterator[Row]:
         lambda: (_by_pinocchio(cell, near[0], jobs.q[0]), _by_coal(placement, jobs)),
         1,
     )
-    yield timed(RUN, OURS, lambda: evolve(placement, BOX, Settings(), np.random.default_rng(1)), 1)
+    yield timed(
+        RUN, OURS, lambda: evolve(placement, BOX, GeneticSettings(), np.random.default_rng(1)), 1
+    )
 
 
 def _cell() -> Cell:

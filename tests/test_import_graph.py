@@ -1,8 +1,15 @@
 """The import graph, on small packages written for it."""
 
+import ast
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
 import pytest
 
 from dualarm_repro.sources import Graph
+
+ROOT = Path(__file__).parents[1]
 
 FILES = {
     "__init__.py": '"""Package."""\n',
@@ -96,3 +103,15 @@ def test_the_index_is_keyed_by_content(folder, tmp_path):
     os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
     name = ["dualarm_repro.room.inner"]
     assert Graph(folder, index).digest(name) != before.digest(name)
+
+
+@pytest.mark.parametrize("folder", ["benchmarks", "examples", "tools"])
+def test_what_lies_beside_the_package_imports_what_is_there(folder):
+    for path in (ROOT / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            module = node.module if isinstance(node, ast.ImportFrom) and not node.level else None
+            if module and module.partition(".")[0] == "dualarm_repro":
+                for alias in node.names:
+                    found = import_module(module)
+                    known = hasattr(found, alias.name) or find_spec(f"{module}.{alias.name}")
+                    assert known, f"{path.name}: {module} has no {alias.name}"

@@ -1,11 +1,11 @@
 """What the foundations pages show: computed, right, and sensitive to errors."""
 
 import re
-from html import escape
 
 import numpy as np
 import pytest
 import sympy as sp
+from bs4 import BeautifulSoup
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -220,8 +220,8 @@ def test_document_pages(registry, monkeypatch):
         assert errata.count("<li id=") == len(paper.errata)
         if "No machine proof" in errata:  # what is proved comes first
             assert errata.find("No machine proof") > errata.rfind("<b>Proved</b>")
-        title = escape(paper.document.title[:20])
-        assert title in document.bibliography_page(registry).html
+        told = BeautifulSoup(document.bibliography_page(registry).html, "html.parser").get_text()
+        assert all(word in told for word in re.findall(r"\w+", paper.document.title)[:3])
     table = document.items_page(registry, "xue").html
     assert '"../xue/kinematics.html#xue.tab01"' in table
     assert "&lt;b&gt;" in table
