@@ -12,7 +12,7 @@ from markupsafe import Markup
 from .badge import badge
 from .wording import short
 
-#: One file for each kind of output: heads and cards of items, pages of the ledger.
+# One file for each kind of output: heads and cards of items, pages of the ledger.
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
