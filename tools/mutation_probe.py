@@ -24,7 +24,7 @@ from dualarm_repro.errors import LedgerError
 from dualarm_repro.ledger import Registry, evaluate
 from dualarm_repro.ledger.closure import closure, hash_file
 from dualarm_repro.ledger.drift import differences
-from dualarm_repro.ledger.files import to_json
+from dualarm_repro.ledger.files import through_json
 from dualarm_repro.ledger.reference import declared, read_reference
 from dualarm_repro.papers import load
 
@@ -106,12 +106,9 @@ def _items(registry: Registry, asked: list[str] | None) -> Iterator[Check]:
             evaluation = evaluate(registry, item_id)
             if any(name.startswith("results/") for name in evaluation.inputs):
                 return None
-            obtained = json.loads(to_json(evaluation.result.obtained))
-            return differences(
-                {"obtained": reference.get("obtained")},
-                {"obtained": obtained},
-                declared(registry, item_id),
-            )
+            made = through_json({"obtained": evaluation.result.obtained})
+            stored = {"obtained": reference.get("obtained")}
+            return differences(stored, made, declared(registry, item_id))
 
         def modules(item_id=item_id) -> list[str]:
             return list(closure([registry.checker(item_id).compute]).modules)

@@ -46,6 +46,15 @@ def excused(mutant: Mutant, known: Iterable[dict[str, str]]) -> str | None:
     return None
 
 
+def killers(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[Any, ...], str]:
+    """What killed stored mutants, by their place in the sources and what was exchanged."""
+    return {_place(row): row["killed_by"] for row in rows if row["killed_by"]}
+
+
+def _place(row: Mapping[str, Any]) -> tuple[Any, ...]:
+    return tuple(row[name] for name in ("file", "line", "column", "old", "new"))
+
+
 class Copy:
     """A copy of package, data and tests with a cache of its own, in which sources are mutated."""
 
@@ -166,7 +175,7 @@ def run(
     per_room: int = PER_ROOM,
     seed: int = SEED,
     limit: int | None = None,
-    noticed: Mapping[tuple[str, int, str, str], str] | None = None,
+    noticed: Mapping[tuple[Any, ...], str] | None = None,
 ) -> Iterator[dict[str, Any]]:
     """Every mutant of the sample with what killed it, one after the other.
 
@@ -175,8 +184,8 @@ def run(
     limit
         So many mutants only, evenly out of the sample, and by tests alone.
     noticed
-        What killed mutants, by file, line, old and new; these are not tried again, and the others
-        by tests alone.
+        What killed mutants, see :func:`killers`; these are not tried again, and the others by
+        tests alone.
     """
     drawn = sample(ROOT, ROOMS, per_room, seed)
     if limit is not None:
@@ -186,6 +195,5 @@ def run(
     for mutant in drawn:
         row = {**mutant._asdict(), "killed_by": None, "equivalent": excused(mutant, known)}
         if row["equivalent"] is None:
-            before = noticed.get((mutant.file, mutant.line, mutant.old, mutant.new))
-            row["killed_by"] = before or copy.killer(mutant)
+            row["killed_by"] = noticed.get(_place(row)) or copy.killer(mutant)
         yield row

@@ -34,6 +34,11 @@ def main(arguments: list[str] | None = None) -> int:
         "are the same",
     )
     asked = parser.parse_args(arguments)
+    stored = read_report() if asked.survivors else None
+    if asked.survivors and (stored is None or stored["code"] != digest_of(mutation_run.ROOMS)):
+        print("no stored outcome of these methods", file=sys.stderr)
+        return 2
+    noticed = mutation_run.killers(stored["mutants"] if stored else ())
     registry = load()
     tallies = {
         name: sum((tally(registry, item, name) for item in registry.checkers), Tally())
@@ -42,12 +47,6 @@ def main(arguments: list[str] | None = None) -> int:
     for name, one in tallies.items():
         for line in one.violations:
             print(f"{name}: unnoticed: {line}", flush=True)
-    stored = read_report() if asked.survivors else None
-    if asked.survivors and (stored is None or stored["code"] != digest_of(mutation_run.ROOMS)):
-        print("no stored outcome of these methods", file=sys.stderr)
-        return 2
-    noticed = {(r["file"], r["line"], r["old"], r["new"]): r["killed_by"]
-               for r in (stored["mutants"] if stored else ()) if r["killed_by"]}  # fmt: skip
     rows = []
     with TemporaryDirectory() as folder:
         limit = QUICK if asked.quick else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import LedgerError
@@ -17,7 +17,8 @@ from .verdict import Verdict, decide
 
 @dataclass(frozen=True)
 class Evaluation:
-    """One item, its result and verdict; ``result`` is None for an item that is not attempted.
+    """One item, its result, and the verdict on it; without checker and result if it is not
+    attempted.
 
     ``inputs`` are those that the computation itself read, see ``tracking``.
     """
@@ -26,15 +27,20 @@ class Evaluation:
     item: Item
     checker: Checker | None
     result: Result | None
-    verdict: Verdict
     inputs: frozenset[str] = frozenset()
+    verdict: Verdict = field(init=False)
+
+    def __post_init__(self) -> None:
+        found = self.verdict_on(self.evidence) if self.checker else Verdict.NOT_ATTEMPTED
+        object.__setattr__(self, "verdict", found)
 
     @property
     def evidence(self) -> Evidence:
         """What the rules look at."""
         if self.result is None:
             raise LedgerError(f"{self.item_id}: nothing obtained, {self.item.pending}")
-        return evidence_of(self.item, self.result)
+        thresholds = {name: entry.value for name, entry in self.item.thresholds.items()}
+        return Evidence(self.result.obtained, self.item.printed, thresholds)
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -72,12 +78,6 @@ def assumed_values(
     return Assumed({key: entry.value for key, entry in assumptions.items()} | dict(changes or {}))
 
 
-def evidence_of(item: Item, result: Result) -> Evidence:
-    """What the rules of an item look at."""
-    thresholds = {name: entry.value for name, entry in item.thresholds.items()}
-    return Evidence(result.obtained, item.printed, thresholds)
-
-
 def evaluate(
     registry: Registry, item_id: str, changes: Mapping[str, Any] | None = None
 ) -> Evaluation:
@@ -96,7 +96,7 @@ def evaluate(
     item = registry.look(item_id, "printed", "thresholds", "assumptions", "context")
     checker = registry.checker(item_id)
     if checker is None:
-        return Evaluation(item_id, item, None, None, Verdict.NOT_ATTEMPTED)
+        return Evaluation(item_id, item, None, None)
     assumed = assumed_values(registry, item_id, changes)
     with recording() as inputs:
         result = checker.compute(assumed)
@@ -104,13 +104,7 @@ def evaluate(
         raise LedgerError(f"{item_id}: reads the assumptions {undeclared}, but declares them not")
     for name in sorted(assumed.read):
         registry.assumption(f"{item_id.partition('.')[0]}.{name}")
-    verdict = decide(
-        checker.rules,
-        evidence_of(item, result),
-        assumed=bool(item.assumptions),
-        change=checker.change,
-    )
-    return Evaluation(item_id, item, checker, result, verdict, frozenset(inputs))
+    return Evaluation(item_id, item, checker, result, frozenset(inputs))
 
 
 def prove(registry: Registry, erratum_id: str) -> Proof | None:

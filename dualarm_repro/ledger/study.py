@@ -239,7 +239,7 @@ class Study:
         """
         if count < 1:
             raise InputError("spot check", "count", count, "a positive number")
-        table, cells = self.load(), self.cells()
+        table, cells, known = self.load(), self.cells(), self.meta()["inputs"].keys()
         edge = table[self.knife_edge] if self.knife_edge else [False] * len(cells)
         among = [
             k
@@ -251,7 +251,7 @@ class Study:
         for index in sorted(int(k) for k in drawn):
             with recording() as inputs:
                 made = self.cell(index, cells[index])
-            for name in inputs - self.meta()["inputs"].keys():
+            for name in inputs - known:
                 found.append(f"{self.name} cell {index}: opened {name}, which is not recorded")
             stored = table.iloc[index].drop(cells[index].keys() - made.keys()).to_dict()
             found += [f"{self.name} cell {index}: {line}" for line in self.differs(stored, made)]

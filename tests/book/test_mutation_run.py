@@ -71,3 +71,22 @@ def test_the_list_of_equivalent_mutants_names_mutants_that_exist():
         drawn = mutants(mutation_run.ROOT, entry["file"])
         assert [m for m in drawn if mutation_run.excused(m, [entry])], entry
         assert len(entry["reason"]) > 10
+
+
+def test_what_is_known_to_be_killed_is_not_tried_again(tree, tmp_path, monkeypatch):
+    first = list(mutation_run.run(tmp_path / "first", per_room=99, limit=99))
+    known = mutation_run.killers(first)
+    assert len(known) == sum(bool(row["killed_by"]) for row in first)
+    tried = []
+    monkeypatch.setattr(mutation_run.Copy, "killer", lambda self, mutant: tried.append(mutant))
+    again = list(mutation_run.run(tmp_path / "again", per_room=99, noticed=known))
+    assert [row["killed_by"] for row in again] == [row["killed_by"] for row in first]
+    assert tried
+    assert all(mutation_run._place(one._asdict()) not in known for one in tried)
+
+
+def test_two_of_one_line_are_told_apart():
+    row = {"file": "f.py", "line": 3, "column": 8, "old": "0", "new": "1", "killed_by": "test t"}
+    known = mutation_run.killers([row, {**row, "column": 11, "killed_by": None}])
+    assert len(known) == 1
+    assert mutation_run._place({**row, "column": 11}) not in known

@@ -218,7 +218,8 @@ def test_a_mutant_is_one_token_and_the_sample_is_that_of_its_seed(tmp_path):
 
 
 def test_report_counts_and_keeps_no_message():
-    row = {"file": "f.py", "line": 1, "old": "1", "new": "2", "killed_by": None, "equivalent": None}
+    row = {"file": "f.py", "line": 1, "column": 4, "old": "1", "new": "2",
+           "killed_by": None, "equivalent": None}  # fmt: skip
     rows = [
         row,
         row | {"killed_by": "item toy.x: /home/me"},

@@ -19,7 +19,7 @@ def path(tmp_path, monkeypatch):
 
 
 def row(**changes):
-    plain = {"file": "f.py", "line": 3, "old": "<", "new": ">=", "killed_by": "test t"}
+    plain = {"file": "f.py", "line": 3, "column": 4, "old": "<", "new": ">=", "killed_by": "test t"}
     return {**plain, "equivalent": None, **changes}
 
 

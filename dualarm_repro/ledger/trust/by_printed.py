@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -59,10 +59,7 @@ class _Reprint:
         """The item if it printed ``value``."""
         before = self.before
         if not self.reads:
-            item = before.item.model_copy(update={"printed": value})
-            kept = Evaluation(before.item_id, item, before.checker, before.result, before.verdict)
-            found = kept.verdict_on(kept.evidence)
-            return Evaluation(before.item_id, item, before.checker, before.result, found)
+            return replace(before, item=before.item.model_copy(update={"printed": value}))
         with self.registry.with_printed(before.item_id, value):
             return evaluate(self.registry, before.item_id)
 

@@ -29,7 +29,7 @@ def report(
 ) -> dict[str, Any]:
     """Counts of every direction, what went unnoticed, and every mutant of the method."""
     mutants = [
-        {name: row[name] for name in ("file", "line", "old", "new", "equivalent")}
+        {name: row[name] for name in ("file", "line", "column", "old", "new", "equivalent")}
         | {"killed_by": row["killed_by"] and row["killed_by"].partition(": ")[0]}
         for row in rows
     ]

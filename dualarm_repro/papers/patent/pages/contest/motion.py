@@ -18,6 +18,7 @@ from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.primal_dual import simulate_primal_dual
 from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result
+from .....ledger.witnesses import one_for_each_side
 from .....tracking import memo
 from ...document import CONTROL_STEP, SEED, frozen, run
 from ...reading import network_settings
@@ -178,12 +179,9 @@ def _share(own: float, other: float) -> float:
 
 def _witnesses(shares: list[float]) -> list[dict[str, Any]]:
     """A repeat in which the network is the more robust one, and one in which it is not."""
-    found: dict[str, dict[str, Any]] = {}
-    for k, share in enumerate(shares):
-        verdict = "holds" if share > 0.0 else "fails"
-        witness = {"choice": f"repeat {k}", "verdict": verdict, "values": {"advantage": share}}
-        found.setdefault(verdict, witness)
-    return list(found.values())
+    return one_for_each_side(
+        (f"repeat {k}", share > 0.0, {"advantage": share}) for k, share in enumerate(shares)
+    )
 
 
 def _interval(values: list[float]) -> dict[str, float]:

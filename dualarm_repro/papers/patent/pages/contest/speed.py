@@ -19,6 +19,7 @@ from .....control.instrument import Cost
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, primal_dual_cost
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
+from .....ledger.witnesses import one_for_each_side
 from .....tracking import memo
 from .....view.control_figures import contest_figure, convergence_figure
 from ...problems import busiest, recorded
@@ -60,7 +61,7 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
         None if count is None else count * _primal_dual_costs()[k]
         for count, k in zip(others, busy, strict=True)
     ]
-    sooner = sum(a is not None and (b is None or a < b) for a, b in zip(own, rival, strict=True))
+    sooner = sum(_sooner(a, b) for a, b in zip(own, rival, strict=True))
     arrived = [s for s in steps if s is not None]
     reached = [k for k in others if k is not None]
     hardest = busy[max(range(len(busy)), key=lambda k: others[k] or _MOST_ITERATIONS)]
@@ -155,14 +156,19 @@ def faster_than_numerical(assumed: Assumed) -> Result:
 
 def _witnesses(own: list[float | None], rival: list[float | None]) -> list[dict[str, Any]]:
     """A problem on which the network is sooner and one on which it is not, where there are such."""
-    found: dict[str, dict[str, Any]] = {}
-    for k, (a, b) in enumerate(zip(own, rival, strict=True)):
-        verdict = "holds" if a is not None and (b is None or a < b) else "fails"
-        values = {"network_operations": a, "primal_dual_operations": b}
-        found.setdefault(
-            verdict, {"choice": f"problem {k} of the task", "verdict": verdict, "values": values}
+    return one_for_each_side(
+        (
+            f"problem {k} of the task",
+            _sooner(a, b),
+            {"network_operations": a, "primal_dual_operations": b},
         )
-    return list(found.values())
+        for k, (a, b) in enumerate(zip(own, rival, strict=True))
+    )
+
+
+def _sooner(own: float | None, rival: float | None) -> bool:
+    """Whether the network arrives, and with fewer operations where the other one does, too."""
+    return own is not None and (rival is None or own < rival)
 
 
 @memo()
