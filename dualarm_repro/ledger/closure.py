@@ -118,11 +118,14 @@ def hash_file(path: Path) -> str:
 
 
 def hash_inputs(registry: Registry, names: Iterable[str]) -> dict[str, str]:
-    """SHA-256 of inputs as they are now: files of the data folder, or parts of a document."""
+    """SHA-256 of inputs as they are now: files of the data folder, templates of the package, or
+    parts of a document."""
     return {name: _hash_input(registry, name) for name in sorted(names)}
 
 
 def _hash_input(registry: Registry, name: str) -> str:
+    if name.startswith(f"{ROOT}/"):
+        return hash_file(Path(__file__).resolve().parents[2] / name)
     if "#" not in name:
         return hash_file(data_path(*Path(name).parts))
     text = json.dumps(registry.part(name), sort_keys=True, ensure_ascii=False)

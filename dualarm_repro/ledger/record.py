@@ -101,7 +101,7 @@ def compose(
         "verdict": str(settled.verdict),
         "checks": evaluation.checks(),
         "change": checker.change if checker else None,
-        "caption": result.caption if result else None,
+        "caption": result.told() if result else None,
         "alt": result.alt if result else None,
         "assumptions": entries(item.assumptions),
         "context": entries(item.context),

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
+    from .captions import Caption
+
 
 @dataclass(frozen=True)
 class Result:
@@ -23,7 +25,8 @@ class Result:
     table
         The data behind the figure or table, exported as CSV.
     caption
-        States the finding, with the obtained numbers in it.
+        States the finding, with the obtained numbers in it; several sentences as a block of the
+        template beside the page.
     alt
         Text for a reader who cannot see the figure.
     witnesses
@@ -36,7 +39,7 @@ class Result:
     """
 
     obtained: dict[str, Any]
-    caption: str
+    caption: str | Caption
     measured: dict[str, Any] = field(default_factory=dict)
     table: pd.DataFrame | None = None
     alt: str | None = None
@@ -47,6 +50,12 @@ class Result:
     def __post_init__(self) -> None:
         if self.figure is not None and not self.alt:
             raise ValueError("a figure needs alt text")
+
+    def told(self) -> str:
+        """The caption as text; its template knows every obtained and measured value by name."""
+        if isinstance(self.caption, str):
+            return self.caption
+        return self.caption.told({**self.obtained, **self.measured})
 
 
 @dataclass(frozen=True)

@@ -74,5 +74,5 @@ def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, str | None]
         return {"figure": None, "scene": None}
     figure = None
     if result.figure and result.alt:
-        figure = figure_html(result.figure(), result.alt, result.caption)
+        figure = figure_html(result.figure(), result.alt, result.told())
     return {"figure": figure, "scene": result.scene().page_html() if result.scene else None}

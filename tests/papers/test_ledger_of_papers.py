@@ -63,7 +63,7 @@ def test_checker(item_id):
     evaluation = evaluated(item_id)
     assert evaluation.verdict is not Verdict.NOT_ATTEMPTED
     assert insensitive(evaluation) == []
-    assert evaluation.result.caption.strip()
+    assert evaluation.result.told().strip()
     json.loads(to_json(evaluation.result.obtained))
 
 

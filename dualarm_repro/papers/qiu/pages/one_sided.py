@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
+from ....ledger.captions import point
 from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.path_measures import WINDOW, chatter, until_rest
 from ....planning.field.control_points import end_effector
@@ -19,7 +20,6 @@ from ....view.scene3d import Scene3D
 from ....view.search_curves import coordinate_figure
 from ....view.style import BLACK, GREEN
 from ....view.tip_paths import tip_path_figure
-from ...wording import point
 from ..document import FACE_VALUE, PRINTED, RECONSTRUCTION, full_step, spheres
 from ..reading import Traditional, VariableGain, balance_ratio
 from ..studies.improvements import IMPROVEMENTS, nearest

@@ -19,6 +19,7 @@ from ....ledger import (
     Role,
     Rounds,
 )
+from ....ledger.captions import point
 from ....planning.field.control_points import end_effector
 from ....planning.trials.speeds import largest_joint_step, mean_advance
 from ....scene import facing
@@ -26,7 +27,6 @@ from ....view.replays import add_stage
 from ....view.scene3d import Scene3D
 from ....view.style import BLACK, GREEN, ORANGE
 from ....view.tracks import tracks_figure
-from ...wording import point
 from ..document import Layout, master_goal, placed_master, placed_slave
 from ..motions import master_track, slave_undisturbed
 from ..reading import improved, nominal, traditional

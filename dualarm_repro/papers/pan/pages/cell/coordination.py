@@ -9,10 +9,10 @@ import pinocchio as pin
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....view.welding_cell import vectors_figure
 from .....welding import ROBOTS, WELDER, Cell, Jobs, flange_poses, held_poses, torch_tips
 from .....welding.motion import periodic_derivative
-from ....wording import point
 from ...document import SEED
 from ...print_forms import block_residual, printed_text, residual, worst
 from ...reading import SHOWN, FlatSeam, at_display

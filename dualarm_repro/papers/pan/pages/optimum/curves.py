@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....tracking import memo
 from .....view.seam_curves import joints_figure, measures_figure
 from .....welding import (
@@ -20,7 +21,6 @@ from .....welding import (
     flange_poses,
     joint_margin,
 )
-from ....wording import point
 from ...document import SEED, stand_in
 from ...reading import (
     Measure,

@@ -10,13 +10,13 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Result
+from .....ledger.captions import point
 from .....ledger.shares import Share
 from .....tracking import memo
 from .....view.card import figure_html
 from .....view.landscape import readings_figure, sensitivity_figure
 from .....view.page import Page
 from .....welding import Placement
-from ....wording import point
 from ...document import printed_optimum
 from ...reading import Problem, job_scene_at, optimum, solved, status_name
 from ...studies.consistency import CONSISTENCY, OBJECTIVES, READINGS

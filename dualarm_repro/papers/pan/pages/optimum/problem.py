@@ -12,10 +12,10 @@ import pandas as pd
 
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....ledger.captions import point
 from .....view.landscape import slices_figure
 from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
 from .....welding.motion import smallest_rank
-from ....wording import point
 from ...document import printed_optimum
 from ...print_forms import holds, printed_text, value
 from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, surveyed

@@ -11,9 +11,9 @@ import pandas as pd
 from scipy.stats import spearmanr
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....view.search_plots import best_individual_figure, history_figure, optimisers_figure
 from .....welding import Evolution
-from ....wording import point
 from ...document import printed_optimum
 from ...reading import DENSER, Genetic, Problem, denser, one_run, optimum, solved
 from ...studies.evolution import Runs, stored_runs

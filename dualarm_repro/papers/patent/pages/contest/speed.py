@@ -19,6 +19,7 @@ from .....control.instrument import Cost
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, primal_dual_cost
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
+from .....ledger.captions import captions
 from .....ledger.witnesses import one_for_each_side
 from .....tracking import memo
 from .....view.control_figures import contest_figure, convergence_figure
@@ -26,6 +27,7 @@ from ...problems import busiest, recorded
 from ...reading import PENALTY, network_settings
 
 checks = partial(REGISTRY.checks, page="patent/contest")
+caption = captions(__file__)
 NEWTON_STEPS = (1, 2, 4, 8)
 ITERATIONS = (1, 3, 10, 30, 100, 300)
 #: Problems in a row on which the network starts from its state before.
@@ -132,21 +134,13 @@ def faster_than_numerical(assumed: Assumed) -> Result:
         },
         measured=_measured(network),
         table=pd.DataFrame(_entries(network)),
-        caption=(
-            f"{len(problems)} problems in a row where avoidance presses most. The exact active-set "
-            f"method takes {np.mean(exact):.0f} operations a problem, from nothing to rounding "
-            f"accuracy; one network step takes {np.mean(each):.0f}, since it is a linear "
-            f"solve (a root or elementary function counts as {cost:g}). "
-            f"Started from the problem before, {steps} steps a problem bring the network "
-            f"({network.penalty}, p = {network.factor:g}) to {error:.1e} rad/s, "
-            + (
-                f"within the {threshold:g} asked for: "
-                + (f"it saves {saved:.0%}." if saved >= 0 else f"it costs {-saved:.0%} more.")
-                if arrives
-                else f"and no number tried to the {threshold:g} asked for: the bias of its penalty "
-                "remains."
-            )
-            + " Times on this machine stand in the table; they decide nothing."
+        caption=caption(
+            "claim_efficient",
+            problems=len(problems),
+            cost=cost,
+            network=network,
+            error=error,
+            threshold=threshold,
         ),
         alt="Largest error against time a problem: the exact method at the bottom left, both "
         "networks above and to the right.",

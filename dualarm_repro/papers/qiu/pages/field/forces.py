@@ -9,6 +9,7 @@ import pandas as pd
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....ledger.formula import parse
 from .....ledger.printed import EXACT
 from .....planning.field.disc_field import DiscField
@@ -20,7 +21,6 @@ from .....planning.search.search_field import repulsive_potential_at, repulsive_
 from .....planning.search.search_problem import SearchProblem, search_problem
 from .....view.force_field import force_field_figure
 from .....view.tip_paths import TipPanel, tip_path_figure
-from ....wording import point
 from ...document import PRINTED, SEED, placed, repelling, spheres, value_of
 from ...reading import CONTROL_POINTS, Search
 

@@ -14,8 +14,8 @@ from .....arms import load_arm
 from .....arms.dh import joint_symbols
 from .....arms.link_chains import coinciding, frames_at_zero, modified_chain, offset_chain
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....view.arm_drawings import dimension_drawing, frames_figure
-from ....wording import point
 from ...document import PRINTED, ROBOT, SEED, robot
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")

@@ -21,6 +21,7 @@ from .....ledger import (
     Role,
     Rounds,
 )
+from .....ledger.captions import point
 from .....ledger.formula import parse
 from .....ledger.printed import read_number
 from .....ledger.printed_values import printed_numbers
@@ -29,7 +30,6 @@ from .....planning.tasks.elbow_branches import BRANCHES, branch_posture, pulled_
 from .....planning.tasks.tip_goal import tip_posture
 from .....view.arm_drawings import stick_figure
 from .....view.arm_scenes import standing
-from ....wording import point
 from ...document import (
     ARMS,
     PRINTED,

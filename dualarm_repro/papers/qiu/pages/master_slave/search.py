@@ -10,11 +10,11 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from .....ledger.captions import point
 from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
 from .....view.diagrams import flow_chart
-from ....wording import point
 from ...document import PRINTED
 from ...ends import count_rules, counted, meeting_rules, met, outcome
 from ...reading import Links, Slave

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....ledger.captions import point
 from .....planning.checks.contact_check import ContactCheck, contact_check
 from .....planning.field.control_points import end_effector
 from .....planning.search.search_plan import SearchPlan
@@ -18,7 +19,6 @@ from .....view.scene3d import Scene3D
 from .....view.search_curves import coordinate_figure, joint_figure, splice_figure
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
-from ....wording import point
 from ...document import FACE_VALUE, PRINTED, RECONSTRUCTION, spheres, truth_scene
 from ...ends import count_rules, counted, meeting_rules, met, outcome
 from ...reading import Improved, Splice

@@ -14,11 +14,11 @@ from .....arms.exact_chain import chain_product, same_function
 from .....arms.joint_axes import axis_spread, common_origins, joint_frames
 from .....arms.reach import symmetric_bases
 from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.captions import point
 from .....view.arm_drawings import frames_figure, stick_figure
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
 from .....view.upright_arm import upright_drawing
-from ....wording import point
 from ...document import SEED, lengths, master_goal, master_start, placed_master
 from ...reading import nominal
 from . import printed_chain as chain

@@ -13,9 +13,9 @@ from .....arms.exact_chain import chain_product, craig_transform, evaluated, sam
 from .....arms.joint_axes import joint_placements
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role, Rounds
+from .....ledger.captions import point
 from .....ledger.formula import parse
 from .....tracking import memo
-from ....wording import point
 from ...document import READINGS, SEED, master_goal, master_start, reach
 from . import printed_chain as chain
 
