@@ -15,14 +15,14 @@ def load() -> Registry:
     return REGISTRY
 
 
-def show(item_id: str) -> Page:
-    """Everything the ledger knows about an item, for a cell of the book: ``show("xue.fig05")``.
+def show(*item_ids: str) -> Page:
+    """Everything the ledger knows about items, for a cell of the book: ``show("xue.fig05")``.
 
     Raises
     ------
     UnknownNameError
         No such item.
     """
-    from ..view.page import present
+    from ..view.page import Page, present
 
-    return present(REGISTRY, item_id)
+    return Page("".join(present(REGISTRY, item_id).html for item_id in item_ids))
