@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from typing import Any
 
 from markupsafe import Markup
 
 from ..ledger.meaning import MEANING
+from ..ledger.verdict import Verdict
+from .assumption_rows import assumption_rows, context_rows, rerun
 from .badge import interval, percent
 from .firmness import firmness_svg
+from .item_files import KINDS, address
+from .printed_view import parts, printed_html
 from .rendering import render
+from .rule_sentences import SIGN, rule_sentence
+from .source_code import highlighted, source_of
 from .style import BLACK, house_style
-from .wording import search_lines, share_of, short
+from .wording import search_lines, share_of, short, summary_lines, verdict_line
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 250_000
@@ -46,28 +53,71 @@ def _saved(figure: Any, form: str, **options: Any) -> bytes:
     return buffer.getvalue()
 
 
-def head_html(made: dict[str, Any]) -> Markup:
-    """Id, verdict, title and place of a record on one line."""
-    return render("head", made=made)
+def head_html(made: dict[str, Any], root: str | None = None) -> Markup:
+    """Id, title and place of a record, then what is printed, obtained and decided, in words.
+
+    Parameters
+    ----------
+    root
+        Way from the page up to the top of the book; None on the item's own page.
+    """
+    lines = summary_lines(made)
+    told = [part.kind in ("words", "lost") for part in parts(made)]
+    return render(
+        "head",
+        made=made,
+        lines=lines,
+        decided=verdict_line(made),
+        print=None if told == [True] else printed_html(made),
+        address=None if root is None else root + address(made["id"]),
+    )
 
 
-def card_html(made: dict[str, Any], root: str = "") -> Markup:
-    """What a verdict rests on: checks, witnesses, assumptions, errata, missing data, robustness.
+def card_html(
+    made: dict[str, Any],
+    root: str = "",
+    files: Sequence[tuple[str, str]] = (),
+    citations: Mapping[str, str] | None = None,
+) -> Markup:
+    """What a verdict rests on, folded: rules as sentences, assumptions, witnesses, robustness,
+    errata, what is not printed, code, data and citations.
 
     Parameters
     ----------
     root
         Way from the page up to the top of the book, e.g. ``"../"``.
+    files
+        Kind and address of each file of the item.
+    citations
+        Name of a format to the citation.
     """
-    found, verdict = made["robustness"], made["verdict"]
+    found, verdict, code = made["robustness"], made["verdict"], made["code"]
+    proved = sum(1 for one in made["errata"] if one["proof"] and one["proof"]["holds"])
+    source = source_of(code) if code else None
     return render(
         "card",
         made=made,
+        checks=[(SIGN[c["outcome"]], c["outcome"], rule_sentence(c)) for c in made["checks"]],
+        held=sum(c["outcome"] == "holds" for c in made["checks"]),
+        rows=assumption_rows(made),
+        context=context_rows(made),
+        witnesses=[_witness(entry) for entry in made["witnesses"]],
         robustness=robustness_text(found, verdict) if found else None,
         firmness=Markup(firmness_svg(found, verdict)) if found else None,
         sought=search_lines(made),
-        code=_code(made["code"], root),
+        proved=f", {proved} proved by computation" if proved else "",
+        code=_code(code, root),
+        source=highlighted(source) if source else None,
+        again=[f"dualarm run {made['id']}", *filter(None, [rerun(made)])],
+        files=[(kind, where, KINDS[kind]) for kind, where in files],
+        citations=citations,
+        own=lambda item_id: root + address(item_id),
     )
+
+
+def _witness(entry: dict[str, Any]) -> dict[str, Any]:
+    values = short(entry["values"]) if entry["values"] else "the values as declared"
+    return {**entry, "values": values, "known": entry["verdict"] in set(Verdict)}
 
 
 def erratum_html(entry: dict[str, Any]) -> Markup:
@@ -102,15 +152,14 @@ def card_figure(made: dict[str, Any]) -> Any:
     import matplotlib.pyplot as plt
 
     rows = [
-        [check["label"], check["expected"], short(check["obtained"]), check["outcome"]]
-        for check in made["checks"]
-    ] or [[made["pending"] or "", "", "", ""]]
+        [SIGN[check["outcome"]], rule_sentence(check)] for check in made["checks"]
+    ] or [["", made["pending"] or ""]]
     with house_style():
         figure, ax = plt.subplots(figsize=(10, 1.2 + 0.4 * len(rows)))
         ax.axis("off")
         ax.set_title(f"{made['id']}: {made['verdict']}", color=BLACK, loc="left")
         cells = [[_cut(cell) for cell in row] for row in rows]
-        header = ["statement", "expected", "obtained", "outcome"]
+        header = ["", "statement"]
         table = ax.table(cells, colLabels=header, loc="upper center", cellLoc="left")
         table.auto_set_font_size(False)
         table.set_fontsize(8)
@@ -130,7 +179,7 @@ def robustness_text(found: dict[str, Any], verdict: str) -> str:
     if flip is None:
         return text + "No single change within the plausible values flips the outcome."
     return text + (
-        f"The smallest single change that flips the outcome: {flip['assumption']} from "
+        f"The smallest single change that flips the outcome: {short(flip['assumption'])} from "
         f"{short(flip['nominal'])} to {short(flip['value'])}, giving "
         f"{flip['verdict']}."
     )

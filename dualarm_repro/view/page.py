@@ -8,11 +8,16 @@ from typing import Any
 from ..ledger import kept
 from ..ledger.cite import cite
 from ..ledger.evaluation import Evaluation
+from ..ledger.export import data_table
+from ..ledger.files import to_json
 from ..ledger.record import located, make, record, roots
 from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
+from .item_files import beside_page, links
 
 _KIND = "pages"
+#: A table of more bytes is not copied into the book; `dualarm run` writes it.
+_LARGEST_CSV = 1_000_000
 
 
 class Page:
@@ -40,24 +45,66 @@ def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:
     UnknownNameError
         No such item.
     """
-    drawn = pictures(registry, item_id)
     made = record(registry, item_id)
     root = "../" * (made["page"] or "").count("/")
-    parts: list[str] = [head_html(made)]
+    return Page(card(registry, made, root, scene=scene))
+
+
+def own_page(registry: Registry, item_id: str) -> str:
+    """The card of an item for the page that it has of its own, one folder below the top.
+
+    Raises
+    ------
+    UnknownNameError
+        No such item.
+    """
+    made = record(registry, item_id)
+    where = f"{made['url']}" if made["url"] else "ledger.html"
+    ways = (
+        f'<p class="ledger-way"><a href="../{where}">In its chapter</a> · '
+        f'<a href="../{made["paper"]}/index.html">The document</a> · '
+        '<a href="../ledger.html">The ledger</a></p>'
+    )
+    return ways + card(registry, made, "../", own=True)
+
+
+def card(
+    registry: Registry, made: dict[str, Any], root: str, *, scene: bool = True, own: bool = False
+) -> str:
+    """HTML of a card.
+
+    Parameters
+    ----------
+    root
+        Way from the page up to the top of the book.
+    own
+        Whether it stands on the item's own page: there the figure is a file beside it.
+    """
+    item_id, drawn = made["id"], pictures(registry, made["id"])
+    files = links(made, drawn, root)
+    parts: list[str] = [head_html(made, None if own else root)]
     if drawn["figure"]:
-        parts.append(drawn["figure"])
+        parts.append(beside_page(drawn["figure"], files) if own else drawn["figure"])
     elif made["caption"]:
-        parts.append(f"<p>{escape(made['caption'])}</p>")
+        parts.append(f'<p class="ledger-caption">{escape(made["caption"])}</p>')
     if drawn["scene"] and scene:
-        parts.append(drawn["scene"])
-    parts.append(card_html(made, root))
-    bibtex = escape(cite(registry, item_id, "bibtex", made["verdict"]))
-    parts.append(f"<details><summary>Cite</summary><pre>{bibtex}</pre></details>")
-    return Page(f'<div class="ledger-item" id="{item_id}">{"".join(parts)}</div>')
+        parts.append(f'<div class="ledger-stage">{drawn["scene"]}</div>')
+    parts.append(card_html(made, root, files, citations(registry, made)))
+    place = 'id="card"' if own else f'id="{item_id}"'
+    return f'<article class="ledger-item" {place}>{"".join(parts)}</article>'
+
+
+def citations(registry: Registry, made: dict[str, Any]) -> dict[str, str]:
+    """The citations of an item by the name of their format."""
+    item_id, verdict = made["id"], made["verdict"]
+    return {
+        "BibTeX": cite(registry, item_id, "bibtex", verdict),
+        "CSL-JSON": to_json(cite(registry, item_id, "csl-json", verdict)),
+    }
 
 
 def pictures(registry: Registry, item_id: str) -> dict[str, str | None]:
-    """Figure and 3-D scene of an item as HTML, drawn now or kept from before."""
+    """Figure and 3-D scene of an item as HTML and its data as CSV, made now or kept from before."""
     registry.look(item_id)
     found = kept.read(registry, _KIND, item_id)
     if found is None:
@@ -71,8 +118,13 @@ def pictures(registry: Registry, item_id: str) -> dict[str, str | None]:
 def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, str | None]:
     result = evaluation.result
     if result is None:
-        return {"figure": None, "scene": None}
+        return {"figure": None, "scene": None, "csv": None}
+    csv = data_table(evaluation, made).to_csv(index=False)
     figure = None
     if result.figure and result.alt:
         figure = figure_html(result.figure(), result.alt, result.told())
-    return {"figure": figure, "scene": result.scene().page_html() if result.scene else None}
+    return {
+        "figure": figure,
+        "scene": result.scene().page_html() if result.scene else None,
+        "csv": csv if len(csv) <= _LARGEST_CSV else None,
+    }

@@ -1,24 +1,89 @@
-"""Values and findings of a record in words, for cards and for the terminal alike."""
+"""What is printed, obtained and decided, on one line each, for cards and for the terminal alike."""
 
 from __future__ import annotations
 
-import json
+import re
+from collections.abc import Mapping
 from typing import Any
 
-_DIGITS = 6
+from ..ledger.meaning import MEANING
+from ..ledger.verdict import Verdict
+from .badge import interval, percent
+from .lines import line
+from .numbers import words
+from .printed_view import printed_words
+from .rule_sentences import compared_with_print, finding
+
+#: How many findings stand on the line of what is obtained.
+_MOST = 2
+_END = re.compile(r"(?<!Fig)(?<!Figs)(?<!eq)\.\s+(?=[A-Z0-9(])")
+_DECIDED = {
+    Verdict.REPRODUCED: "print is met",
+    Verdict.UNDER_ASSUMPTION: "possible",
+    Verdict.INCONSISTENT: "the document contradicts itself",
+    Verdict.NOT_REPRODUCED: "not found",
+    Verdict.REGENERATED: "drawn or derived anew",
+    Verdict.UNDECIDABLE: "open",
+    Verdict.NOT_ATTEMPTED: "not attempted",
+    Verdict.ADOPTED: "used as printed",
+    Verdict.ADAPTED: "used with a change",
+}
 
 
 def short(value: Any) -> str:
-    """A value on one line, floats to six significant digits."""
-    if isinstance(value, float):
-        return f"{value:.{_DIGITS}g}"
-    if isinstance(value, list | tuple):
-        return "(" + ", ".join(short(part) for part in value) + ")"
-    if isinstance(value, dict):
-        return "; ".join(f"{key}: {short(part)}" for key, part in value.items())
-    if value is None:
-        return "-"
-    return value if isinstance(value, str) else json.dumps(value)
+    """A value on one line with the digits that a reader needs."""
+    return words(value)
+
+
+def printed_line(made: Mapping[str, Any]) -> str:
+    """What the document prints, on one line."""
+    return line(made, "printed") or printed_words(made)
+
+
+def obtained_line(made: Mapping[str, Any]) -> str:
+    """What is obtained at the choices shown, on one line."""
+    if made["pending"]:
+        return f"nothing yet: {made['pending']}"
+    if told := line(made, "obtained"):
+        return told
+    if made["kind"] == "figure" and made["printed"] is None and made["caption"]:
+        return _first_sentence(made["caption"])
+    checks = [c for c in made["checks"] if c["role"] != "regenerates"] or made["checks"]
+    order = sorted(checks, key=_rank)  # stable: the first of equals stays in front
+    return "; ".join(finding(check) for check in order[:_MOST])
+
+
+def verdict_line(made: Mapping[str, Any]) -> str:
+    """What the verdict says, with the share of the plausible choices where it has one."""
+    verdict, found = Verdict(made["verdict"]), made["robustness"]
+    text = _DECIDED[verdict]
+    if made["decided_by"]:
+        text += f", by the statement {made['decided_by']}"
+    if verdict is Verdict.ADAPTED and made["change"]:
+        text += f": {made['change']}"
+    if found is None:
+        return text
+    share = percent(found["meets_print"]["share"])
+    low, high = found["meets_print"]["interval"]
+    what = "its properties hold" if verdict is Verdict.REGENERATED else "print is met"
+    return (
+        f"{text}; {what} in {share} of {found['samples']} plausible choices of what is not "
+        f"printed (95 % interval {interval(low, high)})"
+    )
+
+
+def summary_lines(made: Mapping[str, Any]) -> dict[str, str]:
+    """``printed``, ``obtained`` and ``verdict`` of a record in words."""
+    return {
+        "printed": printed_line(made),
+        "obtained": obtained_line(made),
+        "verdict": f"{made['verdict']}: {verdict_line(made)}",
+    }
+
+
+def meaning(verdict: str) -> str:
+    """One sentence on what a verdict means."""
+    return MEANING[Verdict(verdict)]
 
 
 def share_of(verdict: str) -> str:
@@ -26,7 +91,7 @@ def share_of(verdict: str) -> str:
     return "the properties hold" if verdict == "regenerated" else "print is met"
 
 
-def search_lines(made: dict[str, Any]) -> list[str]:
+def search_lines(made: Mapping[str, Any]) -> list[str]:
     """How a witness was sought where none was found, and which is still to be sought."""
     lines, found = [], made["search"]
     if found:
@@ -39,3 +104,17 @@ def search_lines(made: dict[str, Any]) -> list[str]:
     if made["seek"]:
         lines.append(f"Still to be sought: {made['seek']}")
     return lines
+
+
+def _first_sentence(text: str) -> str:
+    """A caption up to its first full stop, which is not that of an abbreviation."""
+    return _END.split(text, maxsplit=1)[0].rstrip(".")
+
+
+def _rank(check: Mapping[str, Any]) -> int:
+    """What a reader wants to know first: against print, contradictions, what fails, the rest."""
+    if compared_with_print(check):
+        return 0
+    if check["role"] == "contradicts":
+        return 1
+    return 2 if check["outcome"] != "holds" else 3

@@ -1,0 +1,84 @@
+"""Assumptions of an item as rows of its card: those that move the outcome most come first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from .numbers import number, words
+
+_EVIDENCE = {
+    "printed": "printed elsewhere in the document",
+    "public": "published by others",
+    "inferred": "inferred from what is printed",
+    "assumed": "assumed",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One assumption: what it says, its value, what else is plausible, how much hangs on it."""
+
+    id: str
+    statement: str
+    value: str
+    plausible: str
+    influence: float
+    flip: str
+    why: str
+    evidence: str
+
+    @property
+    def moves(self) -> bool:
+        """Whether something hangs on it."""
+        return bool(self.influence or self.flip)
+
+
+def assumption_rows(made: Mapping[str, Any]) -> list[Row]:
+    """Rows of a record, by influence."""
+    found = made["robustness"] or {"influence": {}, "flip": None}
+    rows = [_row(entry, found) for entry in made["assumptions"]]
+    return sorted(rows, key=lambda row: (-row.influence, not row.flip))
+
+
+def context_rows(made: Mapping[str, Any]) -> list[Row]:
+    """Rows of what is read but can move no judged value."""
+    return [_row(entry, {"influence": {}, "flip": None}) for entry in made["context"]]
+
+
+def rerun(made: Mapping[str, Any]) -> str | None:
+    """The command that computes the item with its most influential assumption changed."""
+    if not made["assumptions"] or not made["robustness"]:
+        return None
+    flip = made["robustness"]["flip"]
+    if flip and not isinstance(flip["value"], list):
+        value = flip["value"]
+        value = f"{value:.4g}" if isinstance(value, float) else value
+        return f"dualarm run {made['id']} --set {flip['assumption']}={value}"
+    return None
+
+
+def _row(entry: Mapping[str, Any], found: Mapping[str, Any]) -> Row:
+    unit, flip = entry.get("unit", ""), found["flip"]
+    flips = ""
+    if flip and flip["assumption"] == entry["id"]:
+        flips = f"alone flips the outcome at {words(flip['value'], unit)}"
+    return Row(
+        id=entry["id"],
+        statement=entry["statement"],
+        value=words(entry["value"], unit),
+        plausible=_plausible(entry, unit),
+        influence=found["influence"].get(entry["id"], 0.0),
+        flip=flips,
+        why=entry["why"],
+        evidence=_EVIDENCE.get(entry["evidence"], entry["evidence"]),
+    )
+
+
+def _plausible(entry: Mapping[str, Any], unit: str) -> str:
+    if entry.get("range"):
+        low, high = entry["range"]
+        return f"{number(low)} to {number(high)} {unit}".rstrip()
+    others = [one for one in entry.get("choices") or [] if one != entry["value"]]
+    return "or " + ", ".join(words(one, unit) for one in others) if others else ""

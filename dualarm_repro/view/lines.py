@@ -1,0 +1,54 @@
+"""Lines at the head of a card that are worded by hand: templates filled with the item's numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+from jinja2 import Environment, StrictUndefined, TemplateError
+
+from ..errors import LedgerError
+from .badge import percent
+from .numbers import number, words
+
+_FILE = Path(__file__).with_name("lines.yaml")
+
+
+def line(made: Mapping[str, Any], which: str) -> str | None:
+    """The worded line ``printed`` or ``obtained`` of an item, or None where none is worded.
+
+    Raises
+    ------
+    LedgerError
+        The template names a value that the record does not have.
+    """
+    text = _worded().get(made["id"], {}).get(which)
+    if text is None or (which == "obtained" and not made["obtained"]):
+        return None
+    if which == "obtained" and "{" not in text and not all(c["holds"] for c in made["checks"]):
+        return None
+    try:
+        filled = _environment().from_string(text).render(
+            printed=made["printed"], obtained=made["obtained"], robustness=made["robustness"]
+        )  # fmt: skip
+    except TemplateError as error:
+        raise LedgerError(f"{_FILE.name}, {made['id']}: {error}") from None
+    return " ".join(filled.split())
+
+
+@cache
+def _worded() -> dict[str, dict[str, str]]:
+    loaded: dict[str, dict[str, str]] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    return loaded
+
+
+@cache
+def _environment() -> Environment:
+    made = Environment(undefined=StrictUndefined)
+    made.filters["percent"] = percent
+    made.filters["words"] = words
+    made.filters["number"] = number
+    return made
