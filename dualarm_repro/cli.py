@@ -75,9 +75,22 @@ def list_items(
 
 
 @app.command()
-def show(item_id: OneId, as_json: AsJson = False) -> None:
+def show(
+    item_id: OneId,
+    as_json: AsJson = False,
+    url: Annotated[
+        bool, typer.Option("--url", help="only the address of its page in the book")
+    ] = False,
+) -> None:
     """Show one item: printed, obtained, verdict, witnesses, assumptions, errata, robustness."""
-    made = _record(_registry(), item_id)
+    registry = _registry()
+    if url:
+        from .view.item_files import where
+
+        registry.item(item_id)
+        print(where(item_id))
+        return
+    made = _record(registry, item_id)
     if as_json:
         _print_json(made)
     else:

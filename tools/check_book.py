@@ -75,6 +75,25 @@ def wrong_cards(
     return lines
 
 
+def unprinted(pages: Pages, page: str, anchor: str, item_id: str, printed: Any) -> list[str]:
+    """Printed words and digits that a card does not show.
+
+    Parameters
+    ----------
+    printed
+        The printed value of the item, of which every leaf has to be on its card.
+    """
+    from dualarm_repro.ledger.printed import leaves
+
+    block = pages[page].find(id=anchor) if page in pages else None
+    shown = " ".join(block.get_text(" ").split()) if block else ""
+    return [
+        f"{page}: the card of {item_id} does not show the printed {leaf!r}"
+        for _, leaf in leaves(printed or {})
+        if " ".join(str(leaf).split()) not in shown
+    ]
+
+
 def wrong_counts(pages: Pages, page: str, counts: pd.DataFrame) -> list[str]:
     """A table of verdict counts that differs from the registry."""
     table = pages[page].find(id="verdict-counts") if page in pages else None
@@ -90,7 +109,7 @@ def broken_links(pages: Pages, html: Path) -> list[str]:
     ids = {name: {tag["id"] for tag in soup.find_all(id=True)} for name, soup in pages.items()}
     lines = []
     for name, soup in pages.items():
-        for link in soup.select(".cell_output a[href]"):
+        for link in soup.select(".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"):
             address, _, anchor = link["href"].partition("#")
             path = normpath(join(dirname(name), address))
             target = path.removesuffix(".html")
@@ -177,16 +196,21 @@ def violations(root: Path) -> list[str]:
     """Everything that is wrong with the book built below ``root``."""
     from dualarm_repro.ledger import record
     from dualarm_repro.papers import load
+    from dualarm_repro.view.item_files import FOLDER
     from dualarm_repro.view.overview import verdict_counts
-    from dualarm_repro.view.wording import short
+    from dualarm_repro.view.rule_sentences import rule_sentence
 
     registry, book, html = load(), root / "book", root / "_build" / "html"
     pages = read_pages(html)
     home = {item_id: checker.page for item_id, checker in registry.checkers.items()}
-    lines = missing_pages(pages, ["index", *toc_pages(book)]) + misplaced_items(pages, home)
+    own = [f"{FOLDER}/{item_id}" for item_id in home]
+    lines = missing_pages(pages, ["index", *toc_pages(book), *own]) + misplaced_items(pages, home)
     for item_id, page in home.items():
         made = record(registry, item_id)
-        lines += wrong_cards(pages, page, made, [short(c["obtained"]) for c in made["checks"]])
+        sentences = [rule_sentence(check) for check in made["checks"]]
+        lines += wrong_cards(pages, page, made, sentences)
+        lines += unprinted(pages, page, item_id, item_id, made["printed"])
+        lines += unprinted(pages, f"{FOLDER}/{item_id}", "card", item_id, made["printed"])
     for page in ("intro", "ledger"):
         lines += wrong_counts(pages, page, verdict_counts(registry))
     expected = [str(p.relative_to(book).with_suffix("")) for p in notebooks(book)]

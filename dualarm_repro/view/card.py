@@ -10,17 +10,26 @@ from typing import Any
 from markupsafe import Markup
 
 from ..ledger.meaning import MEANING
+from ..ledger.printed import leaves
 from ..ledger.verdict import Verdict
 from .assumption_rows import assumption_rows, context_rows, rerun
 from .badge import interval, percent
 from .firmness import firmness_svg
 from .item_files import KINDS, address
+from .lines import line
 from .printed_view import parts, printed_html
 from .rendering import render
 from .rule_sentences import SIGN, rule_sentence
 from .source_code import highlighted, source_of
 from .style import BLACK, house_style
-from .wording import search_lines, share_of, short, summary_lines, verdict_line
+from .wording import (
+    obtained_line,
+    printed_line,
+    search_lines,
+    share_of,
+    short,
+    verdict_line,
+)
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 250_000
@@ -61,14 +70,21 @@ def head_html(made: dict[str, Any], root: str | None = None) -> Markup:
     root
         Way from the page up to the top of the book; None on the item's own page.
     """
-    lines = summary_lines(made)
-    told = [part.kind in ("words", "lost") for part in parts(made)]
+    kinds = {part.kind for part in parts(made)}
+    in_words = kinds <= {"words", "lost"}
+    told = printed_line(made) if in_words else line(made, "printed")
+    whole = (
+        told is not None
+        and not kinds & {"table", "formula", "matrix"}
+        and all(str(leaf) in told for _, leaf in leaves(made["printed"] or {}))
+    )
     return render(
         "head",
         made=made,
-        lines=lines,
+        told=told,
+        whole=None if whole else printed_html(made),
+        obtained=obtained_line(made),
         decided=verdict_line(made),
-        print=None if told == [True] else printed_html(made),
         address=None if root is None else root + address(made["id"]),
     )
 
@@ -151,9 +167,9 @@ def card_figure(made: dict[str, Any]) -> Any:
     """The checks of a record as a figure, for items whose print is no picture."""
     import matplotlib.pyplot as plt
 
-    rows = [
-        [SIGN[check["outcome"]], rule_sentence(check)] for check in made["checks"]
-    ] or [["", made["pending"] or ""]]
+    rows = [[SIGN[check["outcome"]], rule_sentence(check)] for check in made["checks"]] or [
+        ["", made["pending"] or ""]
+    ]
     with house_style():
         figure, ax = plt.subplots(figsize=(10, 1.2 + 0.4 * len(rows)))
         ax.axis("off")

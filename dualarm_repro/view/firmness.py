@@ -21,7 +21,10 @@ def firmness_svg(robustness: Mapping[str, Any], verdict: str) -> str:
     met = robustness["meets_print"]
     rows = [_row(0, share_of(verdict), met["share"], met["interval"], "#0072B2")]
     shown = list(robustness["influence"].items())[:_MOST]
-    rows += [_row(k, name.replace("_", " "), index, None, "#E69F00") for k, (name, index) in enumerate(shown, 1)]
+    rows += [
+        _row(k, name.replace("_", " "), index, None, "#E69F00")
+        for k, (name, index) in enumerate(shown, 1)
+    ]
     height = _ROW * len(rows) + 4
     draws = f"{100 * met['share']:.0f} % of {robustness['samples']} draws"
     text = f"{share_of(verdict).capitalize()} in {draws}"

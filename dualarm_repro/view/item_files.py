@@ -10,6 +10,7 @@ from html import unescape
 from pathlib import Path
 from typing import Any
 
+from ..datafiles import data_root
 from ..ledger.files import to_json, write
 
 #: Folder of the pages below the top of the book.
@@ -33,6 +34,18 @@ iframe {{ height: 92vh !important }}</style></head><body>{body}</body></html>
 def address(item_id: str) -> str:
     """Address of the page of an item, from the top of the book."""
     return f"{FOLDER}/{item_id}.html"
+
+
+def where(item_id: str, html: Path | None = None) -> str:
+    """The page of an item as a reader can open it: in the built book, else from its top.
+
+    Parameters
+    ----------
+    html
+        The built book; default that of the clone.
+    """
+    page = (html or data_root().parent / "_build" / "html") / address(item_id)
+    return page.resolve().as_uri() if page.is_file() else address(item_id)
 
 
 def links(made: Mapping[str, Any], drawn: Mapping[str, Any], root: str) -> list[tuple[str, str]]:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
-from jinja2 import Environment, StrictUndefined, TemplateError
 
 from ..errors import LedgerError
 from .badge import percent
 from .numbers import number, words
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 _FILE = Path(__file__).with_name("lines.yaml")
 
@@ -30,6 +32,8 @@ def line(made: Mapping[str, Any], which: str) -> str | None:
         return None
     if which == "obtained" and "{" not in text and not all(c["holds"] for c in made["checks"]):
         return None
+    from jinja2 import TemplateError
+
     try:
         filled = _environment().from_string(text).render(
             printed=made["printed"], obtained=made["obtained"], robustness=made["robustness"]
@@ -47,6 +51,8 @@ def _worded() -> dict[str, dict[str, str]]:
 
 @cache
 def _environment() -> Environment:
+    from jinja2 import Environment, StrictUndefined
+
     made = Environment(undefined=StrictUndefined)
     made.filters["percent"] = percent
     made.filters["words"] = words

@@ -35,9 +35,9 @@ def formula(text: str) -> str:
 
 
 def symbol(name: str) -> str:
-    """A name such as ``k_a`` or ``theta_{gi}`` inside a line of text."""
+    """A name or value such as ``theta_{gi}``, ``-pi/2`` or ``d_i/mm`` inside a line of text."""
     try:
-        return _math(_Parser(name).whole(), name)
+        return _math(_Parser(name, flat=True).whole(), name)
     except ValueError:
         return f"<code>{escape(name)}</code>"
 
@@ -77,9 +77,10 @@ def _row(*parts: str) -> str:
 
 
 class _Parser:
-    """Recursive descent over the tokens of one formula."""
+    """Recursive descent over the tokens of one formula; ``flat`` keeps quotients on the line."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, flat: bool = False) -> None:
+        self._flat = flat
         self._tokens: list[tuple[str, str]] = []
         place = 0
         text = text.strip()
@@ -156,6 +157,9 @@ class _Parser:
         while self._tokens:
             if self._is("/"):
                 self._take()
+                if self._flat:
+                    factors.append(f"{factors.pop()}<mo>/</mo>{self._power()}")
+                    continue
                 factors.append(f"<mfrac>{_bare(factors.pop())}{_bare(self._power())}</mfrac>")
             elif self._is("*"):
                 self._take()
@@ -170,7 +174,9 @@ class _Parser:
         kind, text = self._tokens[0]
         if kind == "name":
             return text not in ("if", "in")
-        return kind in ("number", "total") or text == "(" or (text in ("|", "||") and not self._bars)
+        return (
+            kind in ("number", "total") or text == "(" or (text in ("|", "||") and not self._bars)
+        )
 
     def _power(self) -> str:
         base = self._atom()
@@ -267,5 +273,7 @@ def _letter(text: str, below: bool = False) -> str:
         return f"<mn>{text}</mn>"
     if text in _GREEK:
         return f"<mi>{_GREEK[text]}</mi>"
+    if re.fullmatch(r"d[dX]", text):  # a derivative
+        return f"<mrow><mi>d</mi><mi>{text[1]}</mi></mrow>"
     upright = text in _UPRIGHT or len(text) > 3 or (below and len(text) > 2)
     return f'<mi mathvariant="normal">{text}</mi>' if upright else f"<mi>{text}</mi>"

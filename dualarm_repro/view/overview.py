@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import pandas as pd
-from markupsafe import Markup
 
 from ..ledger import Registry, Verdict, record
 from .card import legend_html
 from .item_table import item_table
 from .page import Page
 from .rendering import render
+
+#: Fields of a record that the table of all items filters by, with what their menus are called.
+_MENUS = {"paper": "document", "kind": "kind", "verdict": "verdict", "page": "page"}
 
 
 def verdict_counts(registry: Registry) -> pd.DataFrame:
@@ -35,14 +37,13 @@ def legend_page() -> Page:
 
 
 def ledger_page(registry: Registry) -> Page:
-    """Every item in one table that filters by document, kind, verdict and words.
+    """Every item on one line each, filtered by document, kind, verdict, page and words.
 
-    Items link to the page that shows them; the table itself belongs on a top-level page.
+    What is chosen stands in the address; the table itself belongs on a top-level page.
     """
     records = [record(registry, item_id) for item_id in registry.items]
     menus = {
-        field: list(dict.fromkeys(made[field] for made in records))
-        for field in ("paper", "kind", "verdict")
+        field: (label, list(dict.fromkeys(made[field] for made in records if made[field])))
+        for field, label in _MENUS.items()
     }
-    table = Markup(item_table(registry, registry.items))
-    return Page(render("ledger", menus=menus, table=table))
+    return Page(render("ledger", menus=menus, table=item_table(registry, registry.items)))

@@ -203,8 +203,8 @@ def printed_words(made: Mapping[str, Any]) -> str:
             text = f"a {len(part.content)} × {len(part.content[0])} matrix"
         elif part.kind == "table":
             head, *rows = part.content
-            told = [", ".join(f"{name} {cell}" for name, cell in zip(head[1:], row[1:], strict=True))
-                    for row in rows]  # fmt: skip
+            cells = [zip(head[1:], row[1:], strict=True) for row in rows]
+            told = [", ".join(f"{name} {cell}" for name, cell in pairs) for pairs in cells]
             text = "; ".join(f"{row[0]}: {line}" for row, line in zip(rows, told, strict=True))
             text = text if len(text) < 120 else f"a table of {len(rows)} × {len(head)} entries"
         elif isinstance(part.content, list):

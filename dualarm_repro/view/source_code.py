@@ -1,4 +1,4 @@
-"""The source of the function that computes an item, highlighted, from where its record says it is."""
+"""The highlighted source of the function that computes an item, from the place in its record."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 from markupsafe import Markup
 
 _PACKAGE = Path(__file__).resolve().parents[1]
+_Defined = ast.FunctionDef | ast.ClassDef
 
 
 def source_of(place: Mapping[str, Any]) -> str | None:
@@ -24,20 +25,16 @@ def source_of(place: Mapping[str, Any]) -> str | None:
     if not path.is_relative_to(_PACKAGE) or not path.is_file():
         return None
     text = path.read_text(encoding="utf-8")
-    nodes: list[ast.AST] = [ast.parse(text)]
+    outer: ast.Module | _Defined = ast.parse(text)
     for name in place["function"].partition(".<locals>")[0].split("."):
-        nodes = [
-            node
-            for outer in nodes
-            for node in ast.iter_child_nodes(outer)
-            if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == name
-        ]
-    if not nodes:
+        inner = [one for one in outer.body if isinstance(one, _Defined) and one.name == name]
+        if not inner:
+            return None
+        outer = inner[-1]
+    if isinstance(outer, ast.Module):
         return None
-    node = nodes[-1]
-    assert isinstance(node, ast.FunctionDef | ast.ClassDef)
-    first = min([node.lineno, *(one.lineno for one in node.decorator_list)])
-    return "\n".join(text.splitlines()[first - 1 : node.end_lineno])
+    first = min([outer.lineno, *(one.lineno for one in outer.decorator_list)])
+    return "\n".join(text.splitlines()[first - 1 : outer.end_lineno])
 
 
 def highlighted(source: str, language: str = "python") -> Markup:

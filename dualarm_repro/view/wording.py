@@ -28,6 +28,13 @@ _DECIDED = {
     Verdict.ADOPTED: "used as printed",
     Verdict.ADAPTED: "used with a change",
 }
+#: Verdicts about which the share of the choices that meet print says something.
+_WITH_SHARE = {
+    Verdict.UNDER_ASSUMPTION,
+    Verdict.NOT_REPRODUCED,
+    Verdict.REGENERATED,
+    Verdict.UNDECIDABLE,
+}
 
 
 def short(value: Any) -> str:
@@ -61,10 +68,12 @@ def verdict_line(made: Mapping[str, Any]) -> str:
         text += f", by the statement {made['decided_by']}"
     if verdict is Verdict.ADAPTED and made["change"]:
         text += f": {made['change']}"
-    if found is None:
+    if found is None or verdict not in _WITH_SHARE:
         return text
     share = percent(found["meets_print"]["share"])
     low, high = found["meets_print"]["interval"]
+    if verdict is Verdict.UNDER_ASSUMPTION and made["witnesses"]:
+        text += ", by a stored witness"
     what = "its properties hold" if verdict is Verdict.REGENERATED else "print is met"
     return (
         f"{text}; {what} in {share} of {found['samples']} plausible choices of what is not "

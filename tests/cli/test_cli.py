@@ -188,3 +188,12 @@ def test_help_lists_the_commands(dualarm):
     code, out, _ = dualarm()
     assert code == 2
     assert "Usage" in out
+
+
+def test_show_url_is_the_page_of_the_item(dualarm):
+    code, out, _ = dualarm("show", "xue.tab01", "--url")
+    assert code == 0
+    assert out.strip().endswith("items/xue.tab01.html")
+    code, _, err = dualarm("show", "xue.nothing", "--url")
+    assert code == 2
+    assert "xue.nothing" in err

@@ -3,6 +3,7 @@
 POSSIBLE = "reproduced-under-assumption"
 _CHECK = {
     "label": "a < b",
+    "role": "supports",
     "expected": "at most 1 & 2",
     "obtained": [0.5, True, None],
     "holds": True,
@@ -26,7 +27,8 @@ _RARE = {
 }
 FULL = {
     "id": "toy.x", "paper": "toy", "kind": "claim", "place": "§ 1 & 2", "title": "a < b",
-    "verdict": POSSIBLE, "pending": "not <yet>", "change": "x & y", "decided_by": "toy.claim",
+    "printed": {"a<": "1", "statement": "x & y"}, "unit": None, "obtained": {}, "caption": None,
+    "verdict": POSSIBLE, "pending": None, "change": "x & y", "decided_by": "toy.claim",
     "checks": [{**_CHECK, "outcome": "holds"},
                {**_CHECK, "obtained": {"k": "<"}, "outcome": "open"}],
     "measured": {"time <s>": 0.25, "n": 3}, "robustness": _RARE,

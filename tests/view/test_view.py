@@ -16,6 +16,8 @@ from dualarm_repro.view.overview import counts_page, ledger_page, verdict_counts
 from dualarm_repro.view.scene3d import Scene3D
 from dualarm_repro.view.wording import short
 
+from .full_record import EMPTY
+
 
 def test_every_verdict_has_meaning_sign_and_badge():
     assert set(MEANING) == set(SIGN) == set(Verdict)
@@ -25,21 +27,15 @@ def test_every_verdict_has_meaning_sign_and_badge():
 
 
 def test_short_numbers():
-    assert short([0.12345678, {"a": True}, None]) == "(0.123457, a: true, -)"
+    assert short([0.12345678, {"a": True}, None]) == "(0.1235, a: yes, none)"
 
 
 def test_card_escapes_text():
-    made = {
-        "id": "toy.x", "verdict": "reproduced", "title": "a < b", "kind": "claim", "place": "1",
-        "pending": None, "change": None, "measured": None, "missing": ["<script>"], "notes": None,
-        "checks": [{"label": "<b>", "expected": "1", "obtained": 1, "holds": True,
-                    "outcome": "holds"}],
-        "assumptions": [], "errata": [], "robustness": None, "context": [], "witnesses": [],
-        "search": None, "seek": None, "thresholds": {}, "decided_by": None, "code": None,
-    }  # fmt: skip
-    html = head_html(made) + card_html(made)
+    made = {**EMPTY, "title": "a < b", "missing": ["<script>"], "printed": {"a": "<b>"}}
+    html = head_html(made, "") + card_html(made)
     assert "<script>" not in html
     assert "a &lt; b" in html
+    assert "&lt;b&gt;" in html
     assert html.count("<details>") == html.count("</details>") == 1
 
 
@@ -56,7 +52,7 @@ def test_overview_counts_everything(registry):
     assert table.loc["total", "total"] == len(registry.items)
     assert (table.iloc[:-1].sum() == table.iloc[-1]).all()
     assert 'id="verdict-counts"' in counts_page(registry).html
-    assert ledger_page(registry).html.count("<tr data-paper=") == len(registry.items)
+    assert ledger_page(registry).html.count('<details class="ledger-row"') == len(registry.items)
 
 
 def _commands(html):

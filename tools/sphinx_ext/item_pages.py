@@ -36,11 +36,15 @@ def item_pages(registry: Registry, item_ids: Iterable[str], html: Path) -> Itera
         data = structured_data(made, document, project(), links(made, drawn, "../"))
         title = f"{item_id}: {made['title']}"
         body = f"<h1>{escape(title)}</h1>{own_page(registry, item_id)}"
-        yield f"{FOLDER}/{item_id}", {"title": title, "body": body, "metatags": script(data)}, "page.html"
+        yield (
+            f"{FOLDER}/{item_id}",
+            {"title": title, "body": body, "metatags": script(data)},
+            "page.html",
+        )
 
 
 def searchable(made: dict[str, Any]) -> nodes.document:
-    """What the search knows of an item: title, what is printed, obtained and decided, its caption."""
+    """What the search knows of an item: title, place, print, what is obtained and decided."""
     tree = new_document(made["id"])
     section = nodes.section(ids=["card"])
     section += nodes.title(text=f"{made['id']}: {made['title']}")
@@ -57,10 +61,18 @@ def collect(app: Sphinx) -> Iterator[Page]:
     chosen = list(app.config.item_pages) or list(registry.items)
     yield from item_pages(registry, chosen, Path(app.outdir))
     if app.builder.search:
-        for item_id in chosen:
-            made, name = record(registry, item_id), f"{FOLDER}/{item_id}"
-            title = f"{item_id}: {made['title']}"
-            app.builder.indexer.feed(name, f"{name}.html", title, searchable(made))
+        feed(app.builder.indexer, [record(registry, item_id) for item_id in chosen])
+
+
+def feed(indexer: Any, records: Iterable[dict[str, Any]]) -> None:
+    """Let the search know the pages of items; the index is then cut to the sources and these."""
+    names = set()
+    for made in records:
+        name = f"{FOLDER}/{made['id']}"
+        indexer.feed(name, f"{name}.html", f"{made['id']}: {made['title']}", searchable(made))
+        names.add(name)
+    prune = indexer.prune
+    indexer.prune = lambda sources: prune({*sources, *names})
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
