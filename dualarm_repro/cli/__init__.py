@@ -32,6 +32,7 @@ def main() -> None:
             code = INTERRUPTED if seen else _ending(error)
         if seen:
             code = _said("interrupted", INTERRUPTED)
+            exec("")  # else an interrupted exec() of a library ends the interpreter by the signal
     sys.exit(code)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from typing import Annotated
 
@@ -138,8 +139,11 @@ def study(
         known = stored_studies(load())
         for name in names or []:
             if not any(fnmatchcase(one, name) for one in known):
-                expected = f"one of {', '.join(known) or 'none stored yet'}"
-                raise UnknownNameError("study", "NAME", name, expected)
+                near = get_close_matches(name, known, n=3, cutoff=0.3) or list(known)[:3]
+                such = f" such as {', '.join(near)}" if near else ", but none is stored"
+                raise UnknownNameError(
+                    "study", "NAME", name, f"a study{such} (see `dualarm study`)"
+                )
         chosen = [
             (entry, entry.status())
             for name, entry in known.items()

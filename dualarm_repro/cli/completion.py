@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+import os
 
-from ..errors import DualArmError
+#: Environment variables in which the shells hand over what was typed.
+_LINE = ("COMP_WORDS", "_TYPER_COMPLETE_ARGS")
 
 
 def item_ids(incomplete: str) -> list[str]:
@@ -20,16 +21,14 @@ def papers(incomplete: str) -> list[str]:
     return sorted({item_id.partition(".")[0] for item_id in item_ids(incomplete)})
 
 
-def assumptions(ctx: Any, incomplete: str) -> list[str]:
+def assumptions(incomplete: str) -> list[str]:
     """``name=`` for every assumption of the items that were named before."""
     from ..papers import load
 
+    line = next((os.environ[name] for name in _LINE if name in os.environ), "")
     names: list[str] = []
-    for item_id in ctx.params.get("ids") or ():
-        try:
-            item = load().item(item_id)
-        except DualArmError:
-            continue
+    for item_id in set(line.split()) & set(item_ids("")):
+        item = load().item(item_id)
         names += [f"{name}=" for name in (*item.assumptions, *item.context)]
     return sorted({name for name in names if name.startswith(incomplete)})
 
