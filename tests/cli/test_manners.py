@@ -89,7 +89,8 @@ def test_commands_in_the_documents_can_be_read(path):
     )
     for line in found:
         line = re.sub(r"\bN\b", "2", line.partition("#")[0].strip())
-        if line != "dualarm COMMAND --help" and "--help" not in line:
+        named = line.removeprefix("dualarm ") in COMMANDS  # a mention, not a call
+        if not named and line != "dualarm" and not re.search("--(help|install)", line):
             parsed(line.removesuffix("..."))
 
 
