@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from shlex import join
 from typing import Any
 
+from .badge import percent
 from .printed_beside import Row, check_rows, printed_rows
 from .wording import search_lines, share_of, short
 
@@ -26,8 +28,7 @@ def describe(made: dict[str, Any]) -> Iterator[str]:
     """Everything a record says, a line each."""
     yield f"{made['id']}  {made['title']}  [{made['kind']}, {made['place']}]"
     yield from changed_lines(made)
-    change = f" ({made['change']})" if made["change"] else ""
-    yield f"verdict: {verdict_text(made)}{change}"
+    yield f"verdict: {verdict_text(made)}{verdict_note(made)}"
     if reason := made.get("unavailable"):
         yield f"  {reason}"
     if made["decided_by"]:
@@ -54,8 +55,10 @@ def place_lines(made: dict[str, Any]) -> Iterator[str]:
     """Where the code and the page are, and which commands compute and cite the item again."""
     if code := made["code"]:
         yield f"code: {code['file']}:{code['line']} {code['function']}; page {made['page']}"
-    yield f"again: dualarm run {made['id']}; cite: dualarm cite {made['id']}"
-    if made["assumptions"]:
+    changes = (f"{one['assumption']}={_argument(one['value'])}" for one in made.get("changed", ()))
+    again = join(["dualarm", "run", made["id"], *(f"--set={change}" for change in changes)])
+    yield f"again: {again}; cite: dualarm cite {made['id']}"
+    if made["assumptions"] and "changed" not in made:
         yield f"with another value: dualarm run {made['id']} --set {_example(made)}"
 
 
@@ -73,14 +76,17 @@ def changed_lines(made: dict[str, Any]) -> Iterator[str]:
         unit = f" {entry['unit']}" if entry["unit"] else ""
         ledger = f"{_json(entry['nominal'])} in the ledger; {plausible_text(entry)}"
         yield f"changed: {entry['assumption']} = {_json(entry['value'])}{unit} ({ledger})"
-    if "changed" in made:
-        before = made["nominal"]["verdict"]
-        same = "as with the declared values" if before == made["verdict"] else (
-            f"with the declared values {before}"
-        )  # fmt: skip
-        yield f"with these values alone: {made['verdict']}, {same}"
-        if made["obtained"] == made["nominal"]["obtained"]:
-            yield "no obtained value moved: the item rests on stored draws, or not on this here"
+    if "changed" in made and made["obtained"] == made["nominal"]["obtained"]:
+        yield "no obtained value moved: it rests on stored draws, or the value does not matter here"
+
+
+def verdict_note(made: dict[str, Any]) -> str:
+    """What is to be said behind a verdict: the change of an input, or what the choice is."""
+    if "changed" not in made:
+        return f" ({made['change']})" if made["change"] else ""
+    before = made["nominal"]["verdict"]
+    same = "as" if before == made["verdict"] else f"{before}"
+    return f" with these values alone; {same} with the declared ones"
 
 
 def plausible_text(entry: dict[str, Any]) -> str:
@@ -111,7 +117,7 @@ def verdict_text(made: dict[str, Any]) -> str:
         return "not available"
     if found is None or made["verdict"] != "reproduced-under-assumption":
         return str(made["verdict"])
-    return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
+    return f"{made['verdict']}, {percent(found['meets_print']['share'])}"
 
 
 def verdict_style(verdict: str | None) -> str:
@@ -170,6 +176,10 @@ def _grounds(made: dict[str, Any]) -> Iterator[str]:
         yield f"  erratum {entry['id']}: {entry['problem']} [{proof_text(entry)}]"
     for datum in made["missing"]:
         yield f"  not printed: {datum}"
+
+
+def _argument(value: Any) -> str:
+    return value if isinstance(value, str) else _json(value)
 
 
 def _json(value: Any) -> str:

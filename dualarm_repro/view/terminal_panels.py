@@ -19,6 +19,7 @@ from .terminal import (
     plausible_text,
     proof_text,
     robustness_line,
+    verdict_note,
     verdict_style,
     verdict_text,
 )
@@ -35,14 +36,14 @@ def panels(made: dict[str, Any]) -> Group:
 def _parts(made: dict[str, Any]) -> Iterator[RenderableType]:
     style = verdict_style(made["verdict"])
     head = Text.assemble(("verdict: ", "dim"), (verdict_text(made), f"bold {style}"))
-    head.append(f"  {made['kind']}, {made['place']}", "dim")
-    lines = [head, *(Text(line) for line in changed_lines(made))]
-    lines += [Text(str(made[key])) for key in ("change", "unavailable", "pending") if made.get(key)]
+    lines = [Text(made["title"], "bold"), *(Text(line) for line in changed_lines(made))]
+    lines.append(head + Text(verdict_note(made)))
+    lines += [Text(str(made[key])) for key in ("unavailable", "pending") if made.get(key)]
     if made["decided_by"]:
         lines.append(Text(f"no original in the source; decided by {made['decided_by']}"))
     if made["caption"]:
         lines += [Text(), Text(made["caption"])]
-    title = Text.assemble((made["id"], "bold"), f"  {made['title']}")
+    title = Text(f"{made['id']}, {made['kind']}, {made['place']}")
     yield Panel(Group(*lines), title=title, title_align="left", border_style=style)
     yield from _printed(made)
     if made["checks"]:

@@ -16,7 +16,8 @@ def test_a_changed_run_says_what_was_changed_and_stores_nothing(dualarm, tmp_pat
     assert code == 0
     assert "changed: base_distance = 6.5 m (2.86 in the ledger; plausible" in out
     assert "this is outside" in out
-    assert "with these values alone: not-reproduced, with the declared values" in out
+    assert "verdict: not-reproduced with these values alone; reproduced-under-assumption" in out
+    assert "again: dualarm run xue.claim_overlap --set=base_distance=6.5" in out
     assert "(declared values: " in out
     assert "nothing is stored" in out
     assert list(tmp_path.iterdir()) == []
