@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from math import isfinite
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 from ..errors import DualArmError, InputError
 from .evaluation import Evaluation, evaluate
@@ -97,8 +98,10 @@ def evaluate_changed(
             _SOURCE, "item id", item_id, f"an item that is computed ({before['pending']})"
         )
     try:
-        evaluation = evaluate(registry, item_id, changes)
-        checks = evaluation.checks()
+        with catch_warnings():  # of values far off; what becomes of them is judged or refused
+            simplefilter("ignore", RuntimeWarning)
+            evaluation = evaluate(registry, item_id, changes)
+            checks = evaluation.checks()
     except DualArmError:
         raise
     except Exception as error:  # a value of the right kind may still be one the method cannot take

@@ -157,6 +157,8 @@ def test_export_writes_the_ledger(dualarm, tmp_path, records):
         (["run", "xue.tab02", "--set", "distance=3"], ["distance=3", "base_distance"]),
         (["run", "xue.tab02", "--set", "base_distance=far"], ["far", "a finite number"]),
         (["run", "xue.tab02", "--set", "update_rule=jump"], ["jump", "neighbour_search"]),
+        (["run", "xue.claim_slave_start", "--set", "base_distance=1e300"], ["arm es165d-slave"]),
+        (["run", "xue.fig09", "--set", "step_limit=0"], ["step_limit = 0"]),
         (["run", "xue.eq01", "--set", "base_distance=3"], ["base_distance=3", "xue.eq01"]),
     ],
 )
