@@ -13,12 +13,16 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env book test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
+.PHONY: help env shell book test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
+
+shell: $(VENV)/.installed  ## open a shell in which the command `dualarm` is on the path
+	@echo "dualarm is on the path of this shell; exit leaves it"
+	@PATH="$(CURDIR)/$(BIN):$$PATH" VIRTUAL_ENV="$(CURDIR)/$(VENV)" exec "$${SHELL:-/bin/sh}"
 
 book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.html
 	$(BIN)/python tools/prerun.py

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from ..errors import DataFileError, LedgerError
 from ..sources import graph
 from ..tracking import note, recording
 from . import kept
@@ -34,6 +35,24 @@ def record(registry: Registry, item_id: str) -> dict[str, Any]:
         found = make(registry, item_id)[0]
     note(*found["inputs"])
     return located(found["record"])
+
+
+def record_or_reason(registry: Registry, item_id: str) -> dict[str, Any]:
+    """The record; where it cannot be had, what is declared, with the reason under ``unavailable``.
+
+    A stored study that is stale or damaged takes the verdict from the items that rest on it, and
+    nothing from all the others.
+
+    Raises
+    ------
+    UnknownNameError
+        No such item.
+    """
+    registry.look(item_id)
+    try:
+        return record(registry, item_id)
+    except (LedgerError, DataFileError) as error:
+        return {**_declared(registry, item_id), "verdict": None, "unavailable": str(error)}
 
 
 def make(registry: Registry, item_id: str) -> tuple[dict[str, Any], Evaluation]:
@@ -83,19 +102,8 @@ def compose(
     note(*(f"papers/{name}.yaml#errata.{key.partition('.')[2]}"
            for key in registry.errata_of(item_id)))  # fmt: skip
 
-    def entries(keys: Iterable[str]) -> list[dict[str, Any]]:
-        return [{"id": key, **paper.assumptions[key].model_dump(exclude_none=True)} for key in keys]
-
     return {
-        "id": item_id,
-        "paper": name,
-        "kind": str(item.kind),
-        "title": item.title,
-        "place": item.place,
-        "role": item.role,
-        "scope": item.scope,
-        "printed": item.printed,
-        "unit": item.unit,
+        **_declared(registry, item_id),
         "obtained": result.obtained if result else None,
         "measured": result.measured if result else None,
         "verdict": str(settled.verdict),
@@ -103,21 +111,56 @@ def compose(
         "change": checker.change if checker else None,
         "caption": result.told() if result else None,
         "alt": result.alt if result else None,
+        "errata": [erratum_record(registry, key) for key in registry.errata_of(item_id)],
+        "decided_by": settled.decided_by,
+        "witnesses": settled.witnesses,
+        "search": settled.search,
+        "robustness": settled.robustness,
+        "draws": settled.draws,
+        "code": _code(checker.compute, result.figure if result else None) if checker else None,
+    }
+
+
+def _declared(registry: Registry, item_id: str) -> dict[str, Any]:
+    """The record as far as nothing has to be computed; each of its keys has its place."""
+    item, paper = registry.item(item_id), registry.paper_of(item_id)
+    checker = registry.checker(item_id)
+
+    def entries(keys: Iterable[str]) -> list[dict[str, Any]]:
+        return [{"id": key, **paper.assumptions[key].model_dump(exclude_none=True)} for key in keys]
+
+    return {
+        "id": item_id,
+        "paper": paper.document.id,
+        "kind": str(item.kind),
+        "title": item.title,
+        "place": item.place,
+        "role": item.role,
+        "scope": item.scope,
+        "printed": item.printed,
+        "unit": item.unit,
+        "obtained": None,
+        "measured": None,
+        "verdict": None,
+        "checks": [],
+        "change": None,
+        "caption": None,
+        "alt": None,
         "assumptions": entries(item.assumptions),
         "context": entries(item.context),
         "thresholds": {key: entry.model_dump() for key, entry in item.thresholds.items()},
-        "errata": [erratum_record(registry, key) for key in registry.errata_of(item_id)],
+        "errata": [],
         "missing": item.missing,
         "notes": item.notes,
         "pending": item.pending,
         "statements": item.statements,
-        "decided_by": settled.decided_by,
-        "witnesses": settled.witnesses,
-        "search": settled.search,
+        "decided_by": None,
+        "witnesses": [],
+        "search": None,
         "seek": item.seek,
-        "robustness": settled.robustness,
-        "draws": settled.draws,
-        "code": _code(checker.compute, result.figure if result else None) if checker else None,
+        "robustness": None,
+        "draws": "none",
+        "code": None,
         "page": checker.page if checker else None,
         "url": f"{checker.page}.html#{item_id}" if checker else None,
     }

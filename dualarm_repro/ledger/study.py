@@ -192,7 +192,7 @@ class Study:
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise DataFileError(self.meta_path, "file", reason, expected) from None
-        if not isinstance(found, dict) or not {"code", "inputs", "table_sha256"} <= found.keys():
+        if not isinstance(found, dict) or not _whole(found):
             raise DataFileError(self.meta_path, "file", type(found).__name__, expected)
         return found
 
@@ -284,6 +284,18 @@ class Study:
         with recording() as inputs:
             rows = [self.cell(int(k), cell) for k, cell in zip(chunk, cells, strict=True)]
         return json.loads(to_json(rows)), sorted(inputs)
+
+
+def _whole(meta: Mapping[str, Any]) -> bool:
+    """Whether a record of a study has what its readers take from it, in the form they expect."""
+    code, cells = meta.get("code"), meta.get("cells")
+    return (
+        isinstance(code, dict)
+        and isinstance(code.get("digest"), str)
+        and isinstance(cells, int)
+        and isinstance(meta.get("inputs"), dict)
+        and isinstance(meta.get("table_sha256"), str)
+    )
 
 
 def _chunk_path(folder: Path, chunk: np.ndarray) -> Path:

@@ -10,26 +10,12 @@ import pytest
 from dualarm_repro import cli
 from dualarm_repro.papers import load
 
-ROOT = Path(cli.__file__).parents[1]
+ROOT = Path(cli.__file__).parents[2]
 XUE_PART_1 = [
     *(f"xue.{name}" for name in ("fig01", "fig02", "fig03", "fig05", "fig06", "tab01")),
     *(f"xue.eq{k:02d}" for k in range(1, 9)),
     *(f"xue.claim_{c}" for c in ("spherical_wrist", "mirror", "mc_points", "overlap")),
 ]
-
-
-@pytest.fixture
-def dualarm(capsys, monkeypatch):
-    """Run the command line in this process: exit code, standard output, standard error."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["dualarm", *map(str, arguments)])
-        with pytest.raises(SystemExit) as stop:
-            cli.main()
-        out, err = capsys.readouterr()
-        return stop.value.code or 0, out, err
-
-    return run
 
 
 @pytest.fixture(scope="module")
@@ -81,6 +67,7 @@ def test_show(dualarm):
     code, out, _ = dualarm("show", "xue.tab01")
     assert code == 0
     assert "verdict: inconsistent-in-print" in out
+    assert "d: 0, 0, 0, 1.225, 0, 0.225 | 0, 0, 0, 1.225, 0, 0.225" in out  # print beside ours
 
 
 def test_run_writes_files(dualarm, tmp_path):
@@ -156,8 +143,23 @@ def test_export_writes_the_ledger(dualarm, tmp_path, records):
         (["run", "xue.nothing", "--out", "."], ["xue.nothing"]),
         (["verify", "xue.nothing"], ["xue.nothing"]),
         (["cite", "xue.tab01", "--format", "ris"], ["ris"]),
-        (["robustness", "xue.claim_overlap", "--samples", "0"], ["samples", "0"]),
-        (["study", "nothing"], ["nothing"]),
+        (["robustness", "xue.claim_overlap", "--samples", "0"], ["--samples", "or equal to 1"]),
+        (["robustness", "xue.claim_overlap", "--samples", "1000000000"], ["65536"]),
+        (["study", "nothing"], ["nothing", "dualarm study"]),
+        (["study", "--scheduler", "tcp://nobody:1"], ["--scheduler", "tcp://nobody:1", "--stale"]),
+        (["study", "--jobs", "2"], ["--jobs", "--stale"]),
+        (["verify", "--jobs", "0"], ["--jobs"]),
+        (["plan"], ["SCENE.yaml", "dualarm plan --help"]),
+        (["plan", "nowhere.yaml", "--method", "apf-improved"], ["nowhere.yaml"]),
+        (["plan", "nowhere.yaml", "--method", "dijkstra"], ["dijkstra", "apf-improved"]),
+        (["new-document", "9x"], ["9x"]),
+        (["run", "xue.tab02", "--set", "base_distance"], ["base_distance", "assumption=value"]),
+        (["run", "xue.tab02", "--set", "distance=3"], ["distance=3", "base_distance"]),
+        (["run", "xue.tab02", "--set", "base_distance=far"], ["far", "a finite number"]),
+        (["run", "xue.tab02", "--set", "update_rule=jump"], ["jump", "neighbour_search"]),
+        (["run", "xue.claim_slave_start", "--set", "base_distance=1e300"], ["arm es165d-slave"]),
+        (["run", "xue.fig09", "--set", "step_limit=0"], ["step_limit = 0"]),
+        (["run", "xue.eq01", "--set", "base_distance=3"], ["base_distance=3", "xue.eq01"]),
     ],
 )
 def test_bad_arguments_are_one_line(dualarm, arguments, words):

@@ -105,7 +105,7 @@ def test_what_it_writes_is_formatted(clone):
     ("arguments", "words"),
     [
         (["xue"], ["xue", "names nothing in the clone"]),
-        (["wording"], ["wording", "names nothing"]),
+        (["intro"], ["intro", "names nothing"]),
         (["foundations"], ["foundations", "names nothing"]),
         (["khatib1986"], ["khatib1986", "names nothing"]),
         (["Smith"], ["Smith", "small letters"]),

@@ -1,0 +1,123 @@
+"""Command line: print, compute, verify, export and cite the items of the ledger.
+
+Whatever happens ends in one line: this module imports next to nothing, so that even an interruption
+while a command is being imported is answered.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+from ..errors import DualArmError, LedgerError
+
+#: Environment variable: any value shows the traceback of an error that nobody foresaw.
+TRACEBACK_VARIABLE = "DUALARM_TRACEBACK"
+#: Exit codes beside 0; 1 also stands for a check that failed.
+FAILED, BAD_INPUT, UNFORESEEN, INTERRUPTED = 1, 2, 70, 130
+
+
+def main() -> None:
+    """Entry point: exit with 0, 1 for a failed check, 2 for bad input, 130 when interrupted."""
+    with _interruptions() as seen:
+        try:
+            code = _answer(sys.argv[1:])
+            sys.stdout.flush()
+        except BaseException as error:  # one place decides how each of them ends
+            code = INTERRUPTED if seen else _ending(error)
+        if seen:
+            code = _said("interrupted", INTERRUPTED)
+            exec("")  # else an interrupted exec() of a library ends the interpreter by the signal
+    sys.exit(code)
+
+
+def _answer(arguments: list[str]) -> int:
+    completing = "_DUALARM_COMPLETE" in os.environ
+    if not arguments and not completing:
+        from .overview import overview
+
+        print(overview())
+        return BAD_INPUT
+    from .app import application
+
+    command = application(rich=sys.stdout.isatty())
+    if completing:
+        command.main(arguments, prog_name="dualarm")
+    with command.make_context("dualarm", arguments) as context:
+        command.invoke(context)
+    return 0
+
+
+def _ending(error: BaseException) -> int:
+    """Exit code of an exception, after the line that says what it was."""
+    if isinstance(error, SystemExit):
+        return error.code if isinstance(error.code, int) else int(bool(error.code))
+    if isinstance(error, LedgerError):
+        return _said(str(error), FAILED)
+    if isinstance(error, DualArmError):
+        return _said(str(error), BAD_INPUT)
+    if isinstance(error, BrokenPipeError):  # the reader of a pipe went away
+        _mute(sys.stdout)
+        return 0
+    if isinstance(error, OSError):
+        _mute(sys.stdout)
+        return _said(f"{error.filename or 'output'}: {error.strerror or error}", FAILED)
+    import typer
+
+    if isinstance(error, typer.Exit):
+        return error.exit_code
+    if isinstance(error, typer.Abort):
+        return _said("interrupted", INTERRUPTED)
+    if isinstance(error, typer.TyperException):
+        return _said(error.format_message() + _where(error), BAD_INPUT)
+    if os.environ.get(TRACEBACK_VARIABLE) or not isinstance(error, Exception):
+        raise error
+    kind = f"{type(error).__name__}: {error}"
+    return _said(f"unforeseen {kind} ({TRACEBACK_VARIABLE}=1 shows where)", UNFORESEEN)
+
+
+def _where(error: Any) -> str:
+    context = getattr(error, "ctx", None)
+    return f" (see `{context.command_path} --help`)" if context else ""
+
+
+def _said(message: str, code: int) -> int:
+    try:
+        print(f"dualarm: {' '.join(message.split())}", file=sys.stderr, flush=True)
+    except OSError:  # nobody listens
+        pass
+    return code
+
+
+def _mute(stream: Any) -> None:
+    """Send what is still buffered nowhere, so that the interpreter does not stumble at its end."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    except (OSError, ValueError):
+        pass
+
+
+@contextmanager
+def _interruptions() -> Iterator[list[int]]:
+    """Note interruptions, whatever a library makes of the exception, and let only one end us."""
+    seen: list[int] = []
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        seen.append(number)
+        signal.signal(number, signal.SIG_IGN)
+        sys.unraisablehook = lambda _: None
+        raise KeyboardInterrupt
+
+    try:
+        before = signal.signal(signal.SIGINT, stop)
+    except ValueError:  # not the main thread
+        yield seen
+        return
+    yield seen
+    if not seen:
+        signal.signal(signal.SIGINT, before)

@@ -1,0 +1,6 @@
+"""``python -m dualarm_repro.cli`` is ``dualarm``."""
+
+from . import main
+
+if __name__ == "__main__":
+    main()
