@@ -10,6 +10,7 @@ from io import StringIO
 from pathlib import Path
 from unittest.mock import patch
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -122,6 +123,8 @@ def run(chapter):
             if last and value is None and not printed.getvalue():
                 silent.append(code)
     silent += [str(one.message) for one in caught if one.filename.startswith("<cell")]
+    silent += [f"figure {number} without a caption" for number in plt.get_fignums()]
+    plt.close("all")
     return names, compared, silent
 
 
