@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....ledger.printed import EXACT
 from .....ledger.printed_values import printed_numbers
@@ -17,10 +18,10 @@ from .....planning.field.variable_gain import gain_factor
 from .....planning.search.bidirectional_settings import GainRule, StepRule
 from .....settings import code
 from ...document import PRINTED, goal_to_surface, value_of
-from ...reading import Goal, VariableGain
+from ...reading import ANGLE_UNITS, Goal, VariableGain
 
 checks = partial(REGISTRY.checks, page="qiu/field")
-_SCALE = {"rad": 1.0, "deg": np.pi / 180.0}
+caption = captions(__file__)
 _FLIPS = 3
 
 
@@ -61,12 +62,11 @@ def variable_gain(assumed: Assumed) -> Result:
             "at_flip": float(forms[str(rule)][len(offsets) // 2]),
         },
         table=pd.DataFrame({"rho_minus_rho_s_m": offsets} | forms),
-        caption=(
-            "With the printed product for the gain, every step of a run with "
-            f"{plan.record.flips[0]} flips is what the code makes, to {difference:.0e} rad. After "
-            f"{_FLIPS} flips the three candidate forms take lambda at the flip to "
-            + ", ".join(f"{f[len(offsets) // 2]:.3f} ({name})" for name, f in forms.items())
-            + " and leave it at one outside the band. Which of them was meant is not printed."
+        caption=caption(
+            "eq10",
+            flips=plan.record.flips[0],
+            most=_FLIPS,
+            at_flips={name: form[len(offsets) // 2] for name, form in forms.items()},
         ),
     )
 
@@ -107,13 +107,7 @@ def adaptive_step(assumed: Assumed) -> Result:
             "largest_over_alpha0": {name: float(f.max() / alpha0) for name, f in forms.items()},
         },
         table=pd.DataFrame({"rho_m": rho} | forms),
-        caption=(
-            f"The form used ({chosen}) takes the step from {used[0] / alpha0:.2f} of the first one "
-            f"beside an obstacle to {used[-1] / alpha0:.2f} far away; of all forms "
-            + ", ".join(name for name, f in forms.items() if f.max() > alpha0 * (1 + 1e-9))
-            + f" exceeds the first step, up to {max(f.max() for f in forms.values()) / alpha0:g} "
-            "times. The formula is lost."
-        ),
+        caption=caption("eq12", chosen=chosen, ends=used[[0, -1]] / alpha0),
     )
 
 
@@ -123,8 +117,8 @@ def adaptive_step(assumed: Assumed) -> Result:
         Adopts("alpha0", "first step", to="alpha0"),
         Bounded(
             "steps_missing",
-            "steps of the straight joint line beyond those that the printed "
-            "searches of both ends make",
+            "steps of the straight joint line beyond those that the printed searches of both ends "
+            "make",
             high=0.0,
         ),
     ],
@@ -133,7 +127,7 @@ def first_step(assumed: Assumed) -> Result:
     """The first step, and whether the printed searches cover the straight line in its unit."""
     unit, alpha0 = assumed["angle_unit"], PRINTED.alpha0
     straight = float(np.linalg.norm(Goal.of(assumed).posture() - PRINTED.start))
-    needed = straight / (alpha0 * _SCALE[unit])
+    needed = straight / (alpha0 * ANGLE_UNITS[unit])
     made = int(printed_numbers("qiu.claim_bi_counts", "forward", "backward").sum())
     return Result(
         obtained={
@@ -142,11 +136,7 @@ def first_step(assumed: Assumed) -> Result:
             "steps_for_the_straight_line": needed,
             "least_mean_step_over_alpha0": needed / made,
         },
-        caption=(
-            f"The step is used as printed, in {unit}: the straight line of {straight:.2f} rad from "
-            f"start to goal takes {needed:.0f} of them, the printed searches of both ends make "
-            f"{made}. A mean step below {needed / made:.2f} of it could not have met print."
-        ),
+        caption=caption("claim_alpha0", unit=unit, straight=straight, made=made),
     )
 
 

@@ -47,6 +47,7 @@ from .arm import flange_by_offsets
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
 caption = captions(__file__)
+_given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inputs")
 _WAYS = {
     "pulled_back": "pulled back along the ray from the shoulder",
     "best_effort": "the nearest point that the arm reaches",
@@ -85,16 +86,8 @@ def base_translation(assumed: Assumed) -> Result:
 @checks(
     "qiu.fig03",
     rules=[
-        *(
-            Rounds(
-                f"base_{name}",
-                f"base of the {name} [m]",
-                to=f"base_{name}",
-                tolerance=1e-12,
-                reason="difference of two printed inputs",
-            )
-            for name in ARMS
-        ),
+        _given("base_master", "base of the master [m]", to="base_master"),
+        _given("base_slave", "base of the slave [m]", to="base_slave"),
         Is(
             "turn_nearest_to_print",
             "of the quarter turns, this one brings the start tips nearest to print",
