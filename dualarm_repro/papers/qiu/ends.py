@@ -30,6 +30,11 @@ JOINT_COLUMNS = [f"q{j}_deg" for j in range(1, 7)]
 TIP_COLUMNS = ["x_m", "y_m", "z_m"]
 
 
+def by_half(values: Iterable[Any]) -> dict[str, Any]:
+    """Two values by the half that each belongs to."""
+    return dict(zip(_HALVES, values, strict=True))
+
+
 def count_rules(joined: str) -> list[Rule]:
     """Rules for the printed numbers of searches; ``joined`` says that the halves meet."""
     counts = [Rounds(half, f"searches of the {half} half", to=half) for half in _HALVES]
@@ -70,7 +75,7 @@ def counted(face: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
 def met(face: dict[str, Any], other: dict[str, Any], printed: np.ndarray) -> dict[str, Any]:
     """What the rules for the ends look at, from the outcomes of both readings."""
     return {
-        **dict(zip(_HALVES, face["ends"], strict=True)),
+        **by_half(face["ends"]),
         "joined": face["reason"] == "reached",
         "gap_tip": face["gap_tip"],
         "printed_gap_tip": float(np.linalg.norm(np.subtract(*printed))),
@@ -112,7 +117,7 @@ def coordinates_of(
     """Flanges (N, 3) [m] along the smoothed paths of both readings, with the printed ends of the
     halves (2, 3) [m] and the ``errors`` of the path at its ends."""
     tip = tips[FACE_VALUE]
-    marks = {f"printed, {half}": end for half, end in zip(_HALVES, halves, strict=True)}
+    marks = {f"printed, {half}": end for half, end in by_half(halves).items()}
     return Result(
         obtained={
             **errors,

@@ -232,13 +232,7 @@ def _scene(plan: SearchPlan, goal: np.ndarray) -> Scene3D:
     return made
 
 
-@checks(
-    "qiu.fig11",
-    rules=[
-        _CHATTERS,
-        NO_CURVES,
-    ],
-)
+@checks("qiu.fig11", rules=[_CHATTERS, NO_CURVES])
 def coordinates(assumed: Assumed) -> Result:
     """x, y and z of the flange over the searches of the one-way run."""
     face, other = _both(assumed)

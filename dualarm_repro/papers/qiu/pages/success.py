@@ -31,7 +31,7 @@ caption = captions(__file__)
 #: Columns of the studies of both methods that the document compares.
 COMPARED = {"traditional": "traditional", "improved": "VAB"}
 _BRANCH, _POINTS = "front_shallow", "elbow_wrist_flange"
-_SPACES = ("joints", "tip")
+_SPACES = {"joints": "joint space", "tip": "task space"}
 
 
 def better_cells(success_rule: str) -> tuple[pd.DataFrame, pd.Series]:
@@ -122,17 +122,14 @@ def _sweep_figure() -> Any:
     "qiu.claim_success_rate",
     rules=[
         _HIGHER,
-        Generally(
-            "smoother_joints",
-            "goals with the smoother path of the improved method, in joint space",
-            at_least="half",
-            margin="margin",
-        ),
-        Generally(
-            "smoother_tip",
-            "goals with the smoother path of the improved method, in task space",
-            at_least="half",
-            margin="margin",
+        *(
+            Generally(
+                f"smoother_{key}",
+                f"goals with the smoother path of the improved method, in {space}",
+                at_least="half",
+                margin="margin",
+            )
+            for key, space in _SPACES.items()
         ),
         Bounded(
             "singular_value",

@@ -106,10 +106,7 @@ def resultant(assumed: Assumed) -> Result:
         size = float(np.linalg.norm(pull + push))
         gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
         worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
-    return Result(
-        obtained={"difference": worst, "postures": _SAMPLES},
-        caption=caption("eq04"),
-    )
+    return Result(obtained={"difference": worst, "postures": _SAMPLES}, caption=caption("eq04"))
 
 
 @checks(
@@ -133,8 +130,7 @@ def attractive_potential(assumed: Assumed) -> Result:
         jumps.append(abs(slopes[1] - slopes[0]) / (zeta * d) - 0.5 * step / d)
         growths.append(abs(far - 2 * mid + near) / at)
     return Result(
-        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)},
-        caption=caption("eq05"),
+        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)}, caption=caption("eq05")
     )
 
 
@@ -218,10 +214,7 @@ def repulsive_force(assumed: Assumed) -> Result:
                 )
                 force = inverse_distance_force(rho, eta0, influence, _CONTACT)
                 worst = max(worst, abs(force + float(slope[0])) / max(force, 1.0))
-    return Result(
-        obtained={"direction": direction, "slope": worst},
-        caption=caption("eq08"),
-    )
+    return Result(obtained={"direction": direction, "slope": worst}, caption=caption("eq08"))
 
 
 @checks(
@@ -242,10 +235,7 @@ def joint_forces(assumed: Assumed) -> Result:
             if (size := np.linalg.norm(slope)) > 1.0:
                 gap = np.linalg.norm(repulsive_torque_at(made, q) + slope) / size
                 worst = max(worst, float(gap))
-    return Result(
-        obtained={"difference": worst, "cases": len(cases)},
-        caption=caption("eq09"),
-    )
+    return Result(obtained={"difference": worst, "cases": len(cases)}, caption=caption("eq09"))
 
 
 def _problem(reading: Search) -> SearchProblem:

@@ -10,22 +10,12 @@ import pandas as pd
 import pinocchio as pin
 
 from .....errors import InputError
-from .....ledger import (
-    REGISTRY,
-    Adopts,
-    Assumed,
-    Bounded,
-    Is,
-    NoOriginal,
-    Residual,
-    Result,
-    Role,
-    Rounds,
-)
+from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Rounds
 from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....ledger.printed import read_number
 from .....ledger.printed_values import printed_numbers
+from .....ledger.rules import Role
 from .....planning.field.control_points import end_effector
 from .....planning.tasks.elbow_branches import BRANCHES, branch_posture, pulled_back, shoulder
 from .....planning.tasks.tip_goal import tip_posture
@@ -48,12 +38,6 @@ from .arm import flange_by_offsets
 checks = partial(REGISTRY.checks, page="qiu/geometry")
 caption = captions(__file__)
 _given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inputs")
-_WAYS = {
-    "pulled_back": "pulled back along the ray from the shoulder",
-    "best_effort": "the nearest point that the arm reaches",
-    "longer_tool": "reached with a tool",
-    "moved_base": "reached from a base moved along x",
-}
 
 
 @checks(
@@ -235,7 +219,7 @@ def goal(assumed: Assumed) -> Result:
             "branches_deg": branches,
         },
         table=_changes(),
-        caption=caption("claim_goal", way=_WAYS[reading.master_goal]),
+        caption=caption("claim_goal", reading=reading.master_goal),
     )
 
 

@@ -15,8 +15,8 @@ from .....planning.search.dual_search import DualSearch
 from .....scene import Scene, densify, distances
 from .....view.arm_scenes import pair_panel, played_pair
 from .....view.tip_paths import tip_path_figure
+from ... import ends
 from ...document import ARMS, FACE_VALUE, PRINTED, spheres
-from ...ends import JOINT_COLUMNS, JOINT_RULES, NO_CURVES, TIP_STEP, coordinates_of, joints_of
 from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
@@ -26,12 +26,12 @@ _PLAYED = (
 )
 
 
-@checks("qiu.fig15", rules=JOINT_RULES)
+@checks("qiu.fig15", rules=ends.JOINT_RULES)
 def slave_joints(assumed: Assumed) -> Result:
     """Joint angles of the slave while the hull of the master moves."""
     plans = Slave.of(assumed).dual_readings()
     face, other = plans.values()
-    return joints_of(
+    return ends.joints_of(
         {name: plan.slave_path for name, plan in plans.items()},
         [face.slave, other.slave],
         caption("fig15", samples=[len(face.slave_path), len(other.slave_path)]),
@@ -45,8 +45,8 @@ def slave_joints(assumed: Assumed) -> Result:
     "qiu.fig16",
     rules=[
         Bounded("end_error", "distance of the ends to start and goal [m]", high="held"),
-        TIP_STEP,
-        NO_CURVES,
+        ends.TIP_STEP,
+        ends.NO_CURVES,
     ],
 )
 def slave_coordinates(assumed: Assumed) -> Result:
@@ -54,7 +54,7 @@ def slave_coordinates(assumed: Assumed) -> Result:
     plans, halves = Slave.of(assumed).dual_readings(), PRINTED.slave_meeting
     tips = {n: end_effector(p.slave.placed, p.slave_path) for n, p in plans.items()}
     shifts = tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].slave.tcp[[0, -1]]
-    return coordinates_of(
+    return ends.coordinates_of(
         tips,
         {"end_error": float(np.linalg.norm(shifts, axis=1).max())},
         halves,
@@ -107,7 +107,7 @@ def _motion(plan: DualSearch, scene: Scene) -> pd.DataFrame:
     q = plan.stacked(scene)
     made = pd.DataFrame(
         np.rad2deg(np.hstack(plan.played())),
-        columns=[f"{name}_{joint}" for name in ARMS for joint in JOINT_COLUMNS],
+        columns=[f"{name}_{joint}" for name in ARMS for joint in ends.JOINT_COLUMNS],
     )
     return made.assign(arm_to_arm_m=_distance(scene, q, "master"))
 

@@ -16,8 +16,8 @@ from .....planning.search.bidirectional_compiled import plan_bidirectional_compi
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
 from .....view.diagrams import flow_chart
+from ... import ends
 from ...document import PRINTED
-from ...ends import count_rules, counted, meeting_rules, met, outcome
 from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
@@ -72,23 +72,24 @@ def order_of_work(assumed: Assumed) -> Result:
     )
 
 
-def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
+def _outcomes(assumed: Assumed) -> tuple[dict[str, Any], dict[str, Any]]:
     """How the slave's search came out, at face value and in the reconstruction."""
-    plans = Slave.of(assumed).dual_readings().values()
-    return [outcome(plan.slave, PRINTED.slave_meeting) for plan in plans]
+    face, other = (plan.slave for plan in Slave.of(assumed).dual_readings().values())
+    printed = PRINTED.slave_meeting
+    return ends.outcome(face, printed), ends.outcome(other, printed)
 
 
-@checks("qiu.claim_slave_counts", rules=count_rules("the slave's halves meet"))
+@checks("qiu.claim_slave_counts", rules=ends.count_rules("the slave's halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
     printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
-    return Result(counted(*_outcomes(assumed)), caption("claim_slave_counts", printed=printed))
+    return Result(ends.counted(*_outcomes(assumed)), caption("claim_slave_counts", printed=printed))
 
 
-@checks("qiu.claim_slave_meet", rules=meeting_rules("the slave's halves meet"))
+@checks("qiu.claim_slave_meet", rules=ends.meeting_rules("the slave's halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the slave's halves end, against print."""
-    return Result(met(*_outcomes(assumed), PRINTED.slave_meeting), caption("claim_slave_meet"))
+    return Result(ends.met(*_outcomes(assumed), PRINTED.slave_meeting), caption("claim_slave_meet"))
 
 
 @checks(
@@ -108,13 +109,12 @@ def schedule(assumed: Assumed) -> Result:
     steps = np.mean(
         [np.linalg.norm(np.diff(half, axis=0), axis=1) for half in plan.slave.record.paths], axis=0
     )
+    ratio = float(steps[spread:].mean() / steps[:spread].mean()) if held else None
     return Result(
         obtained={
             "middle_held": held > 0,
             "held_share": held / searches,
-            "late_step_ratio": float(steps[spread:].mean() / steps[:spread].mean())
-            if held
-            else None,
+            "late_step_ratio": ratio,
             "held_searches": held,
             "wait_samples": len(plan.played()[0]) - len(share),
         },

@@ -15,27 +15,16 @@ from .....planning.field.control_points import end_effector
 from .....planning.search.search_plan import SearchPlan
 from .....planning.search.splice import roughness
 from .....view.arm_scenes import played_search, search_panel
-from .....view.scene3d import Scene3D
 from .....view.search_curves import splice_figure
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
+from ... import ends
 from ...document import FACE_VALUE, PRINTED, spheres, truth_scene
-from ...ends import (
-    JOINT_RULES,
-    NO_CURVES,
-    TIP_STEP,
-    coordinates_of,
-    count_rules,
-    counted,
-    joints_of,
-    meeting_rules,
-    met,
-    outcome,
-)
 from ...reading import Improved, Splice
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 caption = captions(__file__)
+_PLAYED = "Reconstruction: both halves of the master's path, forward and backward."
 
 
 def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
@@ -50,24 +39,24 @@ def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
     for plan in Improved.of(assumed).readings().values():
         check = truth(plan)
         contact = {"gap_rad": plan.gap, "free": check.free, "clearance": check.clearance}
-        found.append(outcome(plan, PRINTED.meeting) | contact)
+        found.append(ends.outcome(plan, PRINTED.meeting) | contact)
     return found
 
 
-@checks("qiu.claim_bi_counts", rules=count_rules("the two halves meet"))
+@checks("qiu.claim_bi_counts", rules=ends.count_rules("the two halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     printed = REGISTRY.printed("qiu.claim_bi_counts")["forward"]
-    return Result(counted(*_summaries(assumed)), caption("claim_bi_counts", printed=printed))
+    return Result(ends.counted(*_summaries(assumed)), caption("claim_bi_counts", printed=printed))
 
 
-@checks("qiu.claim_bi_meet", rules=meeting_rules("the two halves meet"))
+@checks("qiu.claim_bi_meet", rules=ends.meeting_rules("the two halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the halves end, against print."""
     face, other = _summaries(assumed)
     height = float(PRINTED.centres[0, 2])
     return Result(
-        obtained=met(face, other, PRINTED.meeting),
+        obtained=ends.met(face, other, PRINTED.meeting),
         caption=caption("claim_bi_meet", reason=face["reason"], height=height),
     )
 
@@ -81,17 +70,13 @@ def meeting(assumed: Assumed) -> Result:
 )
 def both_halves(assumed: Assumed) -> Result:
     """Flange paths of both halves among the spheres."""
-    plans, ends = Improved.of(assumed).readings(), PRINTED.meeting
+    plans, printed = Improved.of(assumed).readings(), PRINTED.meeting
+    face, other = plans.values()
     panels = [
-        search_panel(
-            name,
-            plan,
-            {"forward": plan.half_tcp[0], "backward": plan.half_tcp[1]},
-            {"printed ends": ends},
-        )
+        search_panel(name, plan, ends.by_half(plan.half_tcp), {"printed ends": printed})
         for name, plan in plans.items()
     ]
-    face, other = plans.values()
+    curves = ends.by_half(zip(other.half_tcp, (GREEN, PURPLE), strict=True))
     return Result(
         obtained={
             "apart": face.gap - assumed["joint_tolerance"],
@@ -100,19 +85,12 @@ def both_halves(assumed: Assumed) -> Result:
             "clearance_reconstruction": truth(other).clearance,
         },
         table=face.to_frame(),
-        caption=caption("fig12", face=face, other=other, ends=ends),
+        caption=caption("fig12", face=face, other=other, printed=printed),
         alt="Two panels with two spheres, postures of the arm and the two halves of its flange "
         "path that meet, and the printed end points of the halves.",
         figure=lambda: tip_path_figure(panels, list(spheres().values()), azim=35),
-        scene=lambda: _scene(other),
+        scene=lambda: played_search(_PLAYED, other, spheres(), curves),
     )
-
-
-def _scene(plan: SearchPlan) -> Scene3D:
-    """The joined path, played, with both halves of the flange path."""
-    curves = {"forward": (plan.half_tcp[0], GREEN), "backward": (plan.half_tcp[1], PURPLE)}
-    title = "Reconstruction: both halves of the master's path, forward and backward."
-    return played_search(title, plan, spheres(), curves)
 
 
 @checks(
@@ -121,7 +99,7 @@ def _scene(plan: SearchPlan) -> Scene3D:
         Bounded("least_range", "range of the joint shown that moves least [rad]", low="visible"),
         Bounded("junction_ratio", "bend at the junction, smoothed over joined", high="smoother"),
         Bounded("end_shift", "shift of the ends of the path [rad]", high="held"),
-        NO_CURVES,
+        ends.NO_CURVES,
     ],
 )
 def splice(assumed: Assumed) -> Result:
@@ -165,11 +143,11 @@ def _bend(path: np.ndarray, junction: int) -> float:
     return float(second[junction - 1 : junction + 1].max())
 
 
-@checks("qiu.fig13", rules=JOINT_RULES)
+@checks("qiu.fig13", rules=ends.JOINT_RULES)
 def joint_angles(assumed: Assumed) -> Result:
     """All joint angles of the joined and smoothed path."""
     plans, smooth = Improved.of(assumed).readings(), Splice.of(assumed).smooth
-    return joints_of(
+    return ends.joints_of(
         {name: smooth(plan.path) for name, plan in plans.items()},
         plans.values(),
         caption("fig13"),
@@ -182,8 +160,8 @@ def joint_angles(assumed: Assumed) -> Result:
     rules=[
         Bounded("start_error", "distance of the first point to the start [m]", high="held"),
         Bounded("goal_error", "distance of the last point to the goal [m]", high="held"),
-        TIP_STEP,
-        NO_CURVES,
+        ends.TIP_STEP,
+        ends.NO_CURVES,
     ],
 )
 def tip_coordinates(assumed: Assumed) -> Result:
@@ -195,7 +173,7 @@ def tip_coordinates(assumed: Assumed) -> Result:
     )
     tips = {name: end_effector(plan.placed, smooth(plan.path)) for name, plan in plans.items()}
     shifts = np.linalg.norm(tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].tcp[[0, -1]], axis=1)
-    return coordinates_of(
+    return ends.coordinates_of(
         tips,
         dict(zip(("start_error", "goal_error"), shifts.tolist(), strict=True)),
         halves,
