@@ -14,7 +14,7 @@ from ...arms.robot_file import DHRobot
 from ...datafiles import data_path, read_yaml
 from ...errors import DataFileError
 from ...ledger import REGISTRY
-from ...ledger.formula import Formula
+from ...ledger.formula import parse
 from ...ledger.printed_values import PrintedValue, printed_numbers
 from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.tasks.elbow_branches import shoulder, straight_reach
@@ -62,9 +62,10 @@ class _Printed:
 PRINTED = _Printed()
 
 
-def value_of(formula: Formula, side: int, given: Mapping[str, Any]) -> Any:
+def printed_side(item: str, side: int, given: Mapping[str, Any], key: str = "formula") -> Any:
     """Value of one side of a printed formula; NaN where there is no such side or it holds other
     names than the code."""
+    formula = parse(REGISTRY.printed(f"qiu.{item}")[key])
     try:
         return formula.value(side, given)
     except (DataFileError, IndexError, TypeError, ValueError):

@@ -198,13 +198,12 @@ def height_with_both_gains(assumed: Assumed) -> Result:
 )
 def path_among_spheres(assumed: Assumed) -> Result:
     """Flange path and postures of the one-way search."""
-    (face, other), trap = _both(assumed), PRINTED.trap
-    goals = [end_effector(plan.placed, plan.problem.goal) for plan in (face, other)]
+    plans, trap = Traditional.of(assumed).readings(), PRINTED.trap
+    face, other = plans.values()
+    goals = {name: end_effector(plan.placed, plan.problem.goal) for name, plan in plans.items()}
     panels = [
-        search_panel(title, plan, {"flange": plan.tcp}, {"goal": goal, "printed trap": trap})
-        for title, plan, goal in zip(
-            (FACE_VALUE, RECONSTRUCTION), (face, other), goals, strict=True
-        )
+        search_panel(name, plan, {"flange": plan.tcp}, {"goal": goals[name], "printed trap": trap})
+        for name, plan in plans.items()
     ]
     away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2).min()
     to_trap = float(np.linalg.norm(face.ends[0] - trap))
@@ -220,7 +219,7 @@ def path_among_spheres(assumed: Assumed) -> Result:
         alt="Two panels with two spheres, postures of the arm and the path of its flange; the "
         "goal and the printed trap are marked.",
         figure=lambda: tip_path_figure(panels, list(spheres().values()), azim=35),
-        scene=lambda: _scene(face, goals[0]),
+        scene=lambda: _scene(face, goals[FACE_VALUE]),
     )
 
 

@@ -62,9 +62,8 @@ def table_2(assumed: Assumed) -> Result:
     rule = assumed["success_rule"]
     table, better = better_cells(rule)
     rows = []
-    for (points, ratio), cells in table[table.branch == _BRANCH].groupby(
-        ["control_points", "gain_ratio"]
-    ):
+    groups = table[table.branch == _BRANCH].groupby(["control_points", "gain_ratio"])
+    for (points, ratio), cells in groups:
         for method, variant in COMPARED.items():
             row = {"control points": points, "eta_0/zeta": ratio, "method": method}
             for judged in ("planner", "truth"):

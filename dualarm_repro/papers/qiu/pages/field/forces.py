@@ -10,7 +10,6 @@ import pandas as pd
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
 from .....ledger.captions import captions
-from .....ledger.formula import parse
 from .....ledger.printed import EXACT
 from .....planning.field.disc_field import DiscField
 from .....planning.field.joint_attraction import conic_force, conic_potential
@@ -21,7 +20,7 @@ from .....planning.search.search_field import repulsive_potential_at, repulsive_
 from .....planning.search.search_problem import SearchProblem, search_problem
 from .....view.force_field import force_field_figure
 from .....view.tip_paths import TipPanel, tip_path_figure
-from ...document import PRINTED, SEED, placed, repelling, spheres, value_of
+from ...document import PRINTED, SEED, placed, printed_side, repelling, spheres
 from ...reading import CONTROL_POINTS, Search
 
 checks = partial(REGISTRY.checks, page="qiu/field")
@@ -40,17 +39,15 @@ _NO_FORMULA = NoOriginal("formula", "the formula")
 )
 def principle(assumed: Assumed) -> Result:
     """A point among a goal and an obstacle: both forces and their sum."""
-    goal, centre, radius = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15
-    made = DiscField(goal, centre, radius, PRINTED.zeta, PRINTED.threshold, 4.0, PRINTED.influence)
+    place = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15  # goal, centre and radius
+    made = DiscField(*place, PRINTED.zeta, PRINTED.threshold, 4.0, PRINTED.influence)
     points = np.array([[0.0, 0.25], [0.12, 0.05], [0.45, 0.32], [0.75, -0.2]])
     return Result(
         obtained={"balance": max(made.imbalance(point) for point in points)},
         caption=caption("fig04"),
         alt="Level lines of a potential around a disc and a goal; arrows of attraction, repulsion "
         "and their sum at four points.",
-        figure=lambda: force_field_figure(
-            made.potential, made.forces, goal, centre, radius, points
-        ),
+        figure=lambda: force_field_figure(made.potential, made.forces, *place, points),
     )
 
 
@@ -89,7 +86,6 @@ def control_points(assumed: Assumed) -> Result:
 )
 def resultant(assumed: Assumed) -> Result:
     """The printed sides on postures along the way, slopes by central differences."""
-    formula = parse(REGISTRY.printed("qiu.eq04")["formula"])
     made = _problem(Search.nominal())
     attraction, worst = (made.goal, PRINTED.zeta, PRINTED.threshold, Threshold.NORM), 0.0
     for q in _postures(made.goal):
@@ -102,7 +98,7 @@ def resultant(assumed: Assumed) -> Result:
             "U_rep": partial(repulsive_potential_at, made),
             "grad": partial(central_differences, x=q),
         }
-        sides = [value_of(formula, k, given) for k in range(3)]
+        sides = [printed_side("eq04", k, given) for k in range(3)]
         size = float(np.linalg.norm(pull + push))
         gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
         worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
@@ -179,10 +175,7 @@ def repulsive_potential(assumed: Assumed) -> Result:
             "grows": bool((np.diff(values) <= 0).all() and values[0] > 1e6 * values[2]),
         },
         table=pd.DataFrame({"rho_m": rho, "potential": values}),
-        caption=(
-            "The reconstructed repulsion of one control point vanishes from the end of its range "
-            "on and grows without bound towards the obstacle. The printed formula is lost."
-        ),
+        caption=caption("eq07"),
     )
 
 
@@ -196,7 +189,6 @@ def repulsive_potential(assumed: Assumed) -> Result:
 )
 def repulsive_force(assumed: Assumed) -> Result:
     """The printed gradient of the distance, and the force as the slope of (7)."""
-    formula = parse(REGISTRY.printed("qiu.eq08")["gradient"])
     made, eta0, influence = _problem(Search.nominal()), PRINTED.eta0, PRINTED.influence
     balls, worst, direction = list(spheres().values()), 0.0, 0.0
     for q in _postures(made.goal):
@@ -204,7 +196,8 @@ def repulsive_force(assumed: Assumed) -> Result:
         for k, m in zip(*np.nonzero(found.acting(made.settings.repulsion.sources)), strict=True):
             away = found.points[k] - balls[m].center
             foot = balls[m].center + balls[m].radius * away / np.linalg.norm(away)
-            printed = value_of(formula, 1, {"a_i": found.points[k], "O_s": foot})
+            ends = {"a_i": found.points[k], "O_s": foot}
+            printed = printed_side("eq08", 1, ends, "gradient")
             gap = float(np.linalg.norm(printed - found.outward[k, m]))
             direction = max(direction, gap if np.isfinite(gap) else np.inf)
             rho = float(found.distance[k, m])

@@ -9,7 +9,6 @@ import pandas as pd
 
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
 from .....ledger.captions import captions
-from .....ledger.formula import parse
 from .....ledger.printed import EXACT
 from .....ledger.printed_values import printed_numbers
 from .....planning.checks.recorded_steps import step_difference
@@ -17,7 +16,7 @@ from .....planning.descent.adaptive_step import step_length
 from .....planning.field.variable_gain import gain_factor
 from .....planning.search.bidirectional_settings import GainRule, StepRule
 from .....settings import code
-from ...document import PRINTED, goal_to_surface, value_of
+from ...document import PRINTED, goal_to_surface, printed_side
 from ...reading import ANGLE_UNITS, Goal, VariableGain
 
 checks = partial(REGISTRY.checks, page="qiu/field")
@@ -42,32 +41,23 @@ def variable_gain(assumed: Assumed) -> Result:
     """The printed product in a run, and the factor in its three candidate forms."""
     rule, kappa, band = GainRule(assumed["gain_rule"]), assumed["kappa"], assumed["delta_rho"]
     at, offsets = 0.2, np.linspace(-0.15, 0.15, 61)
-
-    def factors(chosen: GainRule) -> np.ndarray:
-        return np.array(
-            [gain_factor(code(chosen), kappa, band, at + x, at, _FLIPS) for x in offsets]
-        )
-
-    forms = {str(r): factors(r) for r in (GainRule.POWER, GainRule.RAMP, GainRule.PROPORTIONAL)}
-    outside = np.abs(offsets) > band + 1e-9
-    formula = parse(REGISTRY.printed("qiu.eq10")["formula"])
+    outside, middle = np.abs(offsets) > band + 1e-9, len(offsets) // 2
+    forms = {
+        str(r): np.array([gain_factor(code(r), kappa, band, at + x, at, _FLIPS) for x in offsets])
+        for r in (GainRule.POWER, GainRule.RAMP, GainRule.PROPORTIONAL)
+    }
     plan = VariableGain.nominal().plan()
     difference = step_difference(
-        plan, 0, lambda factor, initial: value_of(formula, 1, {"lambda_": factor, "eta_0": initial})
+        plan, 0, lambda factor, eta: printed_side("eq10", 1, {"lambda_": factor, "eta_0": eta})
     )
     return Result(
         obtained={
             "step_difference": difference,
             "outside_band": float(max(np.abs(f[outside] - 1.0).max() for f in forms.values())),
-            "at_flip": float(forms[str(rule)][len(offsets) // 2]),
+            "at_flip": float(forms[str(rule)][middle]),
         },
         table=pd.DataFrame({"rho_minus_rho_s_m": offsets} | forms),
-        caption=caption(
-            "eq10",
-            flips=plan.record.flips[0],
-            most=_FLIPS,
-            at_flips={name: form[len(offsets) // 2] for name, form in forms.items()},
-        ),
+        caption=caption("eq10", plan=plan, most=_FLIPS, forms=forms, middle=middle),
     )
 
 
@@ -153,13 +143,7 @@ def threshold(assumed: Assumed) -> Result:
 @checks("qiu.claim_zeta", samples=32, rules=[Adopts("zeta", "attractive gain", to="zeta")])
 def attractive_gain(assumed: Assumed) -> Result:
     """The attractive gain."""
-    return Result(
-        obtained={"zeta": PRINTED.zeta},
-        caption=(
-            "The gain is used as printed. As every step has the same length, only the ratio of the "
-            "repulsive gain to it counts."
-        ),
-    )
+    return Result({"zeta": PRINTED.zeta}, caption("claim_zeta"))
 
 
 @checks(
@@ -182,13 +166,7 @@ def repulsion_range(assumed: Assumed) -> Result:
     """The range of the repulsion."""
     rho0 = PRINTED.influence
     within = int((goal_to_surface() < rho0).sum())
-    return Result(
-        obtained={"rho0": rho0, "spheres_within": within},
-        caption=(
-            f"The range is used as printed, as the greatest distance; {within} of the spheres are "
-            "within it of the printed goal."
-        ),
-    )
+    return Result({"rho0": rho0, "spheres_within": within}, caption("claim_rho0"))
 
 
 @checks(
@@ -201,13 +179,8 @@ def kappa_range(assumed: Assumed) -> Result:
     low, high = (float(end) for end in text[1:-1].split(","))
     outside = (kappa == low and text[0] == "(") or (kappa == high and text[-1] == ")")
     beyond = max(low - kappa, kappa - high, EXACT if outside else -np.inf)
-    return Result(
-        obtained={"beyond": float(beyond), "kappa": kappa},
-        caption=(
-            f"kappa = {kappa:g} is {'inside' if beyond <= 0.0 else 'outside'} the printed interval "
-            f"{text}. With a gain that falls as a power, kappa = 1 leaves it constant."
-        ),
-    )
+    told = caption("claim_kappa_range", interval=text)
+    return Result({"beyond": float(beyond), "kappa": kappa}, told)
 
 
 @checks(
@@ -227,10 +200,5 @@ def weight_order(assumed: Assumed) -> Result:
     known = {f"tau_{k}": weight / sum(tau) for k, weight in enumerate(tau, 1)}
     chain = [known[name] if name in known else float(name) for name in text.split(" > ")]
     least = float(-np.diff(chain).max())
-    return Result(
-        obtained={"least_difference": least, "weights": list(tau)},
-        caption=(
-            f"Weights {', '.join(map(str, tau))}: {'in' if least > 0.0 else 'not in'} "
-            f"the printed order {text}."
-        ),
-    )
+    told = caption("claim_tau_order", order=text)
+    return Result({"least_difference": least, "weights": list(tau)}, told)

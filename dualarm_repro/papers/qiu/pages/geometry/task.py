@@ -12,7 +12,6 @@ import pinocchio as pin
 from .....errors import InputError
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Rounds
 from .....ledger.captions import captions
-from .....ledger.formula import parse
 from .....ledger.printed import read_number
 from .....ledger.printed_values import printed_numbers
 from .....ledger.rules import Role
@@ -27,9 +26,9 @@ from ...document import (
     SEED,
     goal_to_surface,
     placed,
+    printed_side,
     reach,
     shoulder_to_goal,
-    value_of,
 )
 from ...ends import JOINT_COLUMNS, TIP_COLUMNS
 from ...reading import Goal, GoalBox, SlaveGoal
@@ -52,18 +51,13 @@ _given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inpu
 )
 def base_translation(assumed: Assumed) -> Result:
     """The printed formula with the printed master base and the assumed translation."""
-    formula = parse(REGISTRY.printed("qiu.eq03")["formula"])
     bases, shift = PRINTED.bases, np.array([assumed["base_translation"], 0.0, 0.0])
     vectors = {"X_slaver": bases["slave"], "X_master": bases["master"], "T_trans": shift}
     given = {name: pin.SE3(np.eye(3), at).homogeneous for name, at in vectors.items()}
-    left, right = (value_of(formula, side, given) for side in (0, 1))
+    left, right = (printed_side("eq03", side, given) for side in (0, 1))
     return Result(
         obtained={"translation": shift.tolist(), "miss": float(np.abs(left - right).max())},
-        caption=(
-            f"With a translation by {shift[0]:.3f} m along x the printed formula carries the "
-            f"printed master base to within {np.abs(left - right).max():.0e} m of the printed "
-            "slave base; no rotation is involved."
-        ),
+        caption=caption("eq03"),
     )
 
 

@@ -106,6 +106,7 @@ def splice(assumed: Assumed) -> Result:
     """Joints 4 and 5 around the junction, raw and smoothed; clearance and limits checked again."""
     face = Improved.of(assumed).plan()
     shown = [int(text) for text in REGISTRY.printed("qiu.fig07")["joints"]]
+    columns = [j - 1 for j in shown]
     path = Splice.of(assumed).smooth(face.path)
     before, after = truth(face), truth(face, path)
     curves = {
@@ -113,11 +114,11 @@ def splice(assumed: Assumed) -> Result:
         for j in shown
         for kind, rows in (("joined", face.path), ("smoothed", path))
     }
-    ranges = {j: float(np.ptp(path[:, j - 1])) for j in shown}
+    ranges = np.ptp(path[:, columns], axis=0)
     bends = [_bend(rows, face.searches) for rows in (path, face.path)]
     return Result(
         obtained={
-            "least_range": min(ranges.values()),
+            "least_range": float(ranges.min()),
             "junction_ratio": bends[0] / bends[1] if bends[1] > 0.0 else 1.0,
             "end_shift": float(np.abs(path[[0, -1]] - face.path[[0, -1]]).max()),
             "roughness_ratio": roughness(path) / roughness(face.path),
@@ -126,14 +127,10 @@ def splice(assumed: Assumed) -> Result:
         },
         table=pd.DataFrame(curves),
         caption=caption(
-            "fig07",
-            ranges={j: float(np.rad2deg(moved)) for j, moved in ranges.items()},
-            wrist=assumed["goal_wrist"],
+            "fig07", joints=shown, degrees=np.rad2deg(ranges), wrist=assumed["goal_wrist"]
         ),
         alt="Joints 4 and 5 around the junction of the halves, as joined and after smoothing.",
-        figure=lambda: splice_figure(
-            face.path, path, face.searches + 0.5, tuple(j - 1 for j in shown)
-        ),
+        figure=lambda: splice_figure(face.path, path, face.searches + 0.5, columns),
     )
 
 
@@ -166,11 +163,8 @@ def joint_angles(assumed: Assumed) -> Result:
 )
 def tip_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the flange on the joined and smoothed path."""
-    plans, smooth, halves = (
-        Improved.of(assumed).readings(),
-        Splice.of(assumed).smooth,
-        PRINTED.meeting,
-    )
+    plans, halves = Improved.of(assumed).readings(), PRINTED.meeting
+    smooth = Splice.of(assumed).smooth
     tips = {name: end_effector(plan.placed, smooth(plan.path)) for name, plan in plans.items()}
     shifts = np.linalg.norm(tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].tcp[[0, -1]], axis=1)
     return ends.coordinates_of(
