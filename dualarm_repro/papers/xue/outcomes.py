@@ -18,8 +18,7 @@ from ...planning.descent.problem import PlanningProblem, problem
 from ...planning.settings import APFSettings
 from ...planning.trials.outcome import Outcome, outcome
 from ...planning.trials.runs import Runs, run_trials
-from .document import placed_slave
-from .motions import slave_obstacles
+from .motions import slave_task
 from .reading import Case, improved, joint_term_only, traditional
 
 TRIALS = 10
@@ -33,13 +32,12 @@ class Variant(NamedTuple):
 
     def problem(self, case: Case) -> PlanningProblem:
         """The problem of the slave with this planner."""
-        placed = placed_slave(case.layout)
-        ends = (placed.start, placed.goal)
-        return problem(placed, *ends, slave_obstacles(case), self.settings(case))
+        placed, obstacles = slave_task(case)
+        return problem(placed, placed.start, placed.goal, obstacles, self.settings(case))
 
 
-def _improved(case: Case, *, virtual: bool = True, **changed: str) -> APFSettings:
-    planner, goal = replace(case.planner, **changed), placed_slave(case.layout).goal
+def _improved(case: Case, *, virtual: bool = True, **changed: Any) -> APFSettings:
+    planner, goal = replace(case.planner, **changed), slave_task(case)[0].goal
     return improved(planner, case.layout.window_centre, goal, virtual=virtual)
 
 
@@ -101,7 +99,7 @@ def variant_of(method: str) -> str:
 
 def starts(case: Case, half_width: float, count: int, rng: np.random.Generator) -> np.ndarray:
     """Start angles of the slave, uniformly perturbed, (count, 6) [rad]."""
-    return perturbed(placed_slave(case.layout).start, half_width, count, rng)
+    return perturbed(slave_task(case)[0].start, half_width, count, rng)
 
 
 def outcomes(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[str, Any]:
@@ -134,8 +132,8 @@ def run_variants(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[st
 
 def run_variant(case: Case, name: str, begin: np.ndarray) -> Runs:
     """Runs of one planner."""
-    settings = VARIANTS[name].settings(case)
-    return run_trials(placed_slave(case.layout), begin, slave_obstacles(case), settings)
+    placed, obstacles = slave_task(case)
+    return run_trials(placed, begin, obstacles, VARIANTS[name].settings(case))
 
 
 def summary(case: Case, name: str, runs: Runs) -> Outcome:
