@@ -126,8 +126,8 @@ def motion_row(case: Case) -> dict[str, Any]:
     replay = motions.present(motions.replay_of(case, slave), "motion of the master")
     cores = motions.cores_of(replay, layout)
     to_bars = cores.between("slave", "window")
-    made = VARIANTS["traditional"].problem(case)
-    traditional = attempt(made.placed, made.start, made.obstacles, made.settings)
+    (placed, obstacles), settings = motions.slave_task(case), VARIANTS["traditional"].settings(case)
+    traditional = attempt(placed, placed.start, obstacles, settings)
     return row | {
         "slave_steps": slave.steps,
         "slave_length": slave.length,

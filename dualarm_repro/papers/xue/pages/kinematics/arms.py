@@ -51,10 +51,8 @@ def dimensions(assumed: Assumed) -> Result:
         },
         table=table.reset_index(),
         caption=caption("fig01", shared=chain.SHARED, less=differences),
-        alt=(
-            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
-            "to the flange, with six dimension lines in millimetres."
-        ),
+        alt="Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
+        "to the flange, with six dimension lines in millimetres.",
         figure=lambda: upright_drawing(published),
     )
 

@@ -9,7 +9,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import pinocchio as pin
 
 from .....arms import load_arm
 from .....ledger import REGISTRY, Residual, Result
@@ -20,6 +19,7 @@ from .....planning.field.potentials import Potential
 from .....planning.settings import (
     APFSettings,
     Attraction,
+    PointSet,
     Repulsion,
     Termination,
     Trap,
@@ -33,15 +33,8 @@ from ...reading import COMBINATIONS
 
 checks = partial(REGISTRY.checks, page="xue/potentials")
 
-VALUE = partial(
-    Residual, key="value", high=1e-9, label="largest difference of the field run to print"
-)
-GRADIENT = partial(
-    Residual,
-    key="gradient",
-    high=1e-6,
-    label="relative error of its gradient by central differences",
-)
+VALUE = Residual("value", "largest difference of the field run to print", high=1e-9)
+GRADIENT = Residual("gradient", "relative error of its gradient by central differences", high=1e-6)
 #: Configurations at which gradients are compared.
 _GRADIENTS = 60
 #: Place of a window close to the master's wrist at its start, in the frame of its base [m].
@@ -51,7 +44,7 @@ _CENTRE = np.array([1.4, 0.0, -1.1])
 @memo(64)
 def sample_problem(
     window_distance: str = "sum_over_bars",
-    control_points: str = "frames_2_6",
+    control_points: PointSet = "frames_2_6",
     joint_weight: float = 1.0,
     virtual_gain: float = 2.0,
     virtual_centre: tuple[float, float, float] = tuple(_CENTRE),
@@ -62,16 +55,15 @@ def sample_problem(
 
     With ``virtual_joints`` the virtual point attracts the joints to the goal angles as well.
     """
-    arm = load_arm("es165d")
-    placed = PlacedArm("master", arm, pin.SE3.Identity(), master_start(), master_goal())
+    placed = PlacedArm("master", load_arm("es165d"), start=master_start(), goal=master_goal())
     window = window_frame(_CENTRE, facing((1.0, 0.0, 0.0)), 0.5, 0.5, 0.1, 0.1)
     scene = Scene([placed], {"window": window}, self_collision=False)
+    k_a, k_r, d_0 = (gains()[name] for name in ("k_a", "k_r", "d_0"))
+    trap = Trap(rule="block_means", steps=1, threshold=1e-3)
     settings = APFSettings(
-        attraction=Attraction(gain=gains()["k_a"], joint_weight=joint_weight),
+        attraction=Attraction(gain=k_a, joint_weight=joint_weight),
         control_points=control_points,
-        repulsion=Repulsion(
-            gain=gains()["k_r"], influence=gains()["d_0"], combination=COMBINATIONS[window_distance]
-        ),
+        repulsion=Repulsion(gain=k_r, influence=d_0, combination=COMBINATIONS[window_distance]),
         virtual_point=VirtualPoint(
             gain=virtual_gain,
             position=virtual_centre,
@@ -82,11 +74,7 @@ def sample_problem(
             max_activations=1,
         ),
         update=Update(rule="gradient", max_step=0.02, gain=0.05),
-        termination=Termination(
-            joint_tolerance=0.02,
-            step_limit=1,
-            trap=Trap(rule="block_means", steps=1, threshold=1e-3),
-        ),
+        termination=Termination(joint_tolerance=0.02, step_limit=1, trap=trap),
     )
     away = master_start() + np.array([0.8, 0.0, 0.0, 0.0, 0.0, 0.0])
     return problem(placed, away, master_goal(), obstacles_of(scene), settings)
@@ -101,18 +89,20 @@ def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
 
 def choices(name: str) -> list[Any]:
     """The readings that are declared for an assumption."""
-    return list(REGISTRY.declared(f"xue.{name}", "choices").choices)
+    return list(REGISTRY.declared(f"xue.{name}", "choices").choices or ())
 
 
-def difference(printed: np.ndarray, run: np.ndarray) -> float:
+def difference(printed: np.ndarray, run: float | np.ndarray) -> float:
     """Largest difference; NaN counts, so that what cannot be evaluated agrees with nothing."""
     return float(abs(printed - run).max())
 
 
 def agreement(name: str, printed: np.ndarray, potential: Potential, q: np.ndarray) -> Result:
     """The printed formula against the potential that is descended, and its gradient."""
-    found = difference(printed, potential.value(q))
-    error = gradient_error(potential, q[:_GRADIENTS])
+    found, error = (
+        difference(printed, potential.value(q)),
+        gradient_error(potential, q[:_GRADIENTS]),
+    )
     return Result(
         obtained={"value": found, "gradient": error},
         caption=(
