@@ -9,16 +9,7 @@ import numpy as np
 from ...arms import load_arm
 from ...ledger import REGISTRY, Proof, evaluate
 from ...planning.trials.stuck import STATIONARY
-from . import document
-from .motions import (
-    cores_of,
-    largest_radius,
-    master_undisturbed,
-    present,
-    replay_of,
-    slave_plan,
-    smallest_cores,
-)
+from . import document, motions
 from .outcomes import TRIALS, VARIANTS, run_variants, starts
 from .pages.kinematics import printed_chain as chain
 from .pages.kinematics.chain import flanges
@@ -159,7 +150,7 @@ def eq13_minima() -> Proof:
 
 
 def _obtained(item: str) -> dict[str, Any]:
-    return present(evaluate(REGISTRY, f"xue.{item}").result, item).obtained
+    return motions.present(evaluate(REGISTRY, f"xue.{item}").result, item).obtained
 
 
 @REGISTRY.proves("xue.slave_goal_angles")
@@ -249,13 +240,14 @@ def deterministic_trials() -> Proof:
 def tool_only() -> Proof:
     """Arrangements in which the end effectors are clear and links are not."""
     case = nominal()
-    cores = cores_of(present(replay_of(case, slave_plan(case)), "two motions"), case.layout)
+    replay = motions.replay_of(case, motions.slave_plan(case))
+    cores = motions.cores_of(motions.present(replay, "two motions"), case.layout)
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
         "there are arrangements in which both end effectors do what the figures show while links "
         "of a tenth of a metre touch window or arm",
         clear_share(0.10).high < 1.0,
-        {**shares, "nominal_touches_at": largest_radius(smallest_cores(cores))},
+        {**shares, "nominal_touches_at": motions.largest_radius(motions.smallest_cores(cores))},
     )
 
 
@@ -264,14 +256,14 @@ def layout_conflict() -> Proof:
     """Synchronous distance of the master's undisturbed track and the straight slave line."""
     case, start, end = nominal(), document.slave_start(), document.slave_end()
     base = case.layout.master_base
-    track = master_undisturbed(case.layout, case.planner).tcp - base
+    track = motions.master_undisturbed(case.layout, case.planner).tcp - base
     share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
     line = start + share * (end - start)
     sideways = [
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)
     ]
-    _, farthest = present(REGISTRY.declared("xue.meeting_distance", "range").range, "range")
+    _, farthest = motions.present(REGISTRY.declared("xue.meeting_distance", "range").range, "range")
     anywhere = float(np.linalg.norm(track + base - line, axis=1).min())
     return Proof(
         "a base moved sideways only never brings the two end effectors together at one instant; "

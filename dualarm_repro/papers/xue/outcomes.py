@@ -19,7 +19,7 @@ from ...planning.settings import APFSettings
 from ...planning.trials.outcome import Outcome, outcome
 from ...planning.trials.runs import Runs, run_trials
 from .motions import slave_task
-from .reading import Case, improved, joint_term_only, traditional
+from .reading import Case, improved, traditional
 
 TRIALS = 10
 
@@ -36,9 +36,11 @@ class Variant(NamedTuple):
         return problem(placed, placed.start, placed.goal, obstacles, self.settings(case))
 
 
-def _improved(case: Case, *, virtual: bool = True, **changed: Any) -> APFSettings:
-    planner, goal = replace(case.planner, **changed), slave_task(case)[0].goal
-    return improved(planner, case.layout.window_centre, goal, virtual=virtual)
+def _improved(case: Case, switching: str | None = None, **parts: Any) -> APFSettings:
+    planner, goal = case.planner, slave_task(case)[0].goal
+    if switching is not None:
+        planner = replace(planner, virtual_switching=switching)
+    return improved(planner, case.layout.window_centre, goal, **parts)
 
 
 #: What may free the arm, one part at a time. The first two are the methods of Table 2.
@@ -56,19 +58,15 @@ VARIANTS: dict[str, Variant] = {
         lambda case: traditional(case.planner, "end_effector", case.layout.window_centre),
     ),
     "joint_term": Variant(
-        "joint term alone, no virtual point", lambda case: joint_term_only(case.planner)
+        "joint term alone, no virtual point", partial(_improved, virtual=False, position_weight=0.0)
     ),
     "replaces_goal": Variant(
-        "(13)-(16), virtual point replaces the goal",
-        partial(_improved, virtual_switching="replaces_goal"),
+        "(13)-(16), virtual point replaces the goal", partial(_improved, switching="replaces_goal")
     ),
     "from_start": Variant(
-        "(13)-(16), virtual point from the start",
-        partial(_improved, virtual_switching="from_start"),
+        "(13)-(16), virtual point from the start", partial(_improved, switching="from_start")
     ),
-    "always": Variant(
-        "(13)-(16), virtual point always", partial(_improved, virtual_switching="always")
-    ),
+    "always": Variant("(13)-(16), virtual point always", partial(_improved, switching="always")),
 }
 
 

@@ -94,23 +94,19 @@ class PlannerChoice(FromAssumptions):
 
 
 def improved(
-    planner: PlannerChoice, centre: np.ndarray, goal: np.ndarray, *, virtual: bool = True
+    planner: PlannerChoice,
+    centre: np.ndarray,
+    goal: np.ndarray,
+    *,
+    virtual: bool = True,
+    position_weight: float = 1.0,
 ) -> APFSettings:
-    """(13)-(16) with the virtual point at ``centre``, or without it."""
+    """(13)-(16) with the virtual point at ``centre``; it and the position term can be left out."""
     return planner.settings(
-        planner.attraction(joint_weight=planner.joint_term_weight),
+        planner.attraction(position_weight=position_weight, joint_weight=planner.joint_term_weight),
         control_points=planner.control_points,
         repulsion=planner.repulsion(),
         virtual_point=planner.virtual_point(centre, goal) if virtual else None,
-    )
-
-
-def joint_term_only(planner: PlannerChoice) -> APFSettings:
-    """(13) without its position term, with (14)-(16) and no virtual point."""
-    return planner.settings(
-        planner.attraction(position_weight=0.0, joint_weight=planner.joint_term_weight),
-        control_points=planner.control_points,
-        repulsion=planner.repulsion(),
     )
 
 

@@ -83,8 +83,7 @@ def gains(assumed: Assumed) -> Result:
     }
     both = new.attraction.gain == old.attraction.gain and repels == repelled
     return Result(
-        obtained={**used, "both": both},
-        caption=caption("claim_gains", unit=assumed["length_unit"]),
+        obtained={**used, "both": both}, caption=caption("claim_gains", unit=assumed["length_unit"])
     )
 
 

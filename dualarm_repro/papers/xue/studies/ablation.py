@@ -61,12 +61,7 @@ ABLATION = REGISTRY.keeps(
         compared=DESCENTS,
         seed=20200345,
         settings=Chosen(
-            "xue",
-            (*CASE, *DRAWN_WITH),
-            ranges=True,
-            layouts=LAYOUTS,
-            many=MANY,
-            named=NAMED,
+            "xue", (*CASE, *DRAWN_WITH), ranges=True, layouts=LAYOUTS, many=MANY, named=NAMED
         ),
     )
 )

@@ -42,14 +42,14 @@ def dimensions(assumed: Assumed) -> Result:
     """Side view of the published robot, with the lengths the matrices share with it."""
     printed, published = chain.printed_lengths(), lengths("published")
     differences = {name: published[name] - printed[name] for name in printed}
-    table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
+    table = pd.DataFrame({"matrices_m": printed, "published_m": published})
     return Result(
         obtained={
             "published": published,
             "matrices": printed,
             "shared_difference": max(abs(differences[name]) for name in chain.SHARED),
         },
-        table=table.reset_index(),
+        table=table.reset_index(names="length"),
         caption=caption("fig01", shared=chain.SHARED, less=differences),
         alt="Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
         "to the flange, with six dimension lines in millimetres.",

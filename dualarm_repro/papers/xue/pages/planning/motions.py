@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -151,19 +150,14 @@ def avoiding_in_space(assumed: Assumed) -> Result:
         "Tracks of both end effectors in space: the slave's runs from Start through the "
         "opening of the window to End, clear of the bars and of the master's track."
     )
-    result = _avoiding_tracks(assumed, "fig11", alt, tracks_figure, **_VIEW)
-    replay, _ = _avoiding(assumed)
-    if replay is None:
-        return result
     title = "The slave passes the window while the master moves; nothing is touched."
-    return replace(
-        result, scene=lambda: replays.add_replay(stage(title, Layout.of(assumed)), replay)
-    )
+    return _avoiding_tracks(assumed, "fig11", alt, tracks_figure, title, **_VIEW)
 
 
 def _avoiding_tracks(
-    assumed: Assumed, block: str, alt: str, view: replays.TracksView, **how: Any
+    assumed: Assumed, block: str, alt: str, view: replays.TracksView, title: str = "", **how: Any
 ) -> Result:
+    """Both tracks seen in some way, and in a 3-D scene if that has a title."""
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
@@ -174,6 +168,7 @@ def _avoiding_tracks(
         caption=caption(block),
         alt=alt,
         figure=lambda: _tracks_figure(view, layout, replay, **how),
+        scene=(lambda: replays.add_replay(stage(title, layout), replay)) if title else None,
     )
 
 

@@ -17,17 +17,7 @@ from ...motions import master_plan, present
 from ...reading import nominal
 from ...stored import minima_shares
 from . import printed_field as printed
-from .agreement import (
-    GRADIENT,
-    VALUE,
-    agreement,
-    checks,
-    choices,
-    difference,
-    sample_problem,
-    samples,
-    worst,
-)
+from .agreement import GRADIENT, VALUE, agreement, checks, choices, sample_problem, samples, worst
 
 caption = captions(__file__)
 #: Factor by which the unit of length is made smaller; any but 1 would do.
@@ -57,9 +47,10 @@ _UNIT = 2.0
 def improved_attraction(assumed: Assumed) -> Result:
     """(13): position and joint term, how they scale, and what the unit of length decides."""
     weight = assumed["joint_term_weight"]
-    made = sample_problem(joint_weight=weight)
+    made = sample_problem(joint_term_weight=weight)
     q = samples(made)
-    square, angles = _squares(made, q)
+    gaps = (end_effector(made.placed, q) - made.goal_point, q - made.goal)
+    square, angles = (np.sum(gap**2, axis=1) for gap in gaps)
     ratio, minima = float(np.median(square / angles)), minima_shares()
     found = agreement("(13)", printed.new_attractions(made, q), made.attraction, q)
     return Result(
@@ -86,7 +77,7 @@ def improved_attraction(assumed: Assumed) -> Result:
 def _at_weight_one() -> float:
     made = sample_problem()
     q = samples(made)
-    return difference(printed.new_attractions(made, q), made.attraction.value(q))
+    return printed.difference(printed.new_attractions(made, q), made.attraction.value(q))
 
 
 def term_scaling() -> dict[str, float | bool]:
@@ -116,22 +107,19 @@ def point_repulsion(assumed: Assumed) -> Result:
     found = {}
     for reading in choices("window_distance"):
         for points in choices("control_points"):
-            made = sample_problem(reading, points)
+            made = sample_problem(window_distance=reading, control_points=points)
             q = samples(made)[:40]
             distances, nearest = made.repulsion.distances(q), reading == "nearest_bar"
             terms = printed.repulsion("eq14", distances, nearest=nearest)
             result = agreement("(14)", terms.sum(axis=1), made.repulsion, q)
-            result.obtained["value"] = difference(terms, made.repulsion.terms(q))
+            result.obtained["value"] = printed.difference(terms, made.repulsion.terms(q))
             found[f"{points} with {reading}"] = result
     return worst(found, "(14), point by point")
 
 
 @checks(
     "xue.eq15",
-    rules=[
-        Is("as_many", "as many points as print sums over, in every reading", value=True),
-        VALUE,
-    ],
+    rules=[Is("as_many", "as many points as print sums over, in every reading", value=True), VALUE],
 )
 def five_summands(assumed: Assumed) -> Result:
     """(15): the sum over the points; which five of the six joints is left open."""
@@ -140,7 +128,7 @@ def five_summands(assumed: Assumed) -> Result:
         made = sample_problem(control_points=choice)
         q = samples(made)[:60]
         terms = made.repulsion.terms(q)
-        differences.append(difference(printed.summed(terms), made.repulsion.value(q)))
+        differences.append(printed.difference(printed.summed(terms), made.repulsion.value(q)))
         counts[choice] = len(made.points.names)
         ends = ends_of(made.placed, control_points(made.placed.arm, choice), q)
         still = np.ptp(ends, axis=0).max(axis=(1, 2)) == 0.0
@@ -163,7 +151,7 @@ def five_summands(assumed: Assumed) -> Result:
 def total_potential(assumed: Assumed) -> Result:
     """(16) against what the arm descends when it sets out."""
     switching, term = assumed["virtual_switching"], assumed["virtual_term"]
-    made = sample_problem(virtual_switching=switching, virtual_joints=term == "position_and_joints")
+    made = sample_problem(virtual_switching=switching, virtual_term=term)
     q = samples(made)
     repulsive = printed.repulsion("eq14", made.repulsion.distances(q), nearest=False)
     total = printed.total(printed.new_attractions(made, q), printed.summed(repulsive))
@@ -193,8 +181,7 @@ def virtual_attraction(assumed: Assumed) -> Result:
     gain, centre = case.planner.virtual_gain, case.layout.window_centre
     found = {}
     for term in choices("virtual_term"):
-        joints, place = term == "position_and_joints", tuple(centre.tolist())
-        made = sample_problem(virtual_gain=gain, virtual_centre=place, virtual_joints=joints)
+        made = sample_problem(tuple(centre.tolist()), virtual_gain=gain, virtual_term=term)
         q = samples(made)
         found[term] = agreement("The term", _virtual(made, q), made.virtual, q)
     result = worst(found, "The term of the virtual point, in the form (9) or (13)")
@@ -229,9 +216,3 @@ def _virtual(made: PlanningProblem, q: np.ndarray) -> np.ndarray:
         return np.array([printed.attraction(x, centre, point.gain) for x in flange])
     angles, pairs = np.array(point.joints), zip(flange, q, strict=True)
     return np.array([printed.new_attraction(x, centre, k, angles, point.gain) for x, k in pairs])
-
-
-def _squares(made: PlanningProblem, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """|X - X_g|^2 and the sum of |theta_i - theta_gi|^2, (N,) each."""
-    flange = end_effector(made.placed, q)
-    return np.sum((flange - made.goal_point) ** 2, axis=1), np.sum((q - made.goal) ** 2, axis=1)

@@ -50,7 +50,7 @@ def traditional_repulsion(assumed: Assumed) -> Result:
     """(10) summed over the bars, and for the nearest one."""
     found = {}
     for reading in choices("window_distance"):
-        made = sample_problem(reading, control_points="end_effector")
+        made = sample_problem(window_distance=reading, control_points="end_effector")
         q = samples(made)
         distances = made.repulsion.distances(q)
         printed = repulsion("eq10", distances, nearest=reading == "nearest_bar").sum(axis=1)
