@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions, point
 from .....view.welding_cell import vectors_figure
 from .....welding import ROBOTS, WELDER, Cell, Jobs, flange_poses, held_poses, torch_tips
 from .....welding.motion import periodic_derivative
@@ -18,6 +18,7 @@ from ...print_forms import block_residual, printed_text, residual, worst
 from ...reading import SHOWN, FlatSeam, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
+caption = captions(__file__)
 #: Samples of the turn for derivatives by Fourier transform.
 _FINE = 1440
 
@@ -35,8 +36,7 @@ def grip_change(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
 
 
 @checks(
-    "pan.eq01",
-    rules=[Residual("residual", "both sides of the printed (1) differ by", high=1e-7)],
+    "pan.eq01", rules=[Residual("residual", "both sides of the printed (1) differ by", high=1e-7)]
 )
 def tight_coordination(assumed: Assumed) -> Result:
     """Twists at two points of one rigid body, against central differences of a screw motion."""
@@ -106,13 +106,7 @@ def loose_coordination(assumed: Assumed) -> Result:
             "across": across,
             "along": float(abs(along).min() / flat.radius_branch),
         },
-        caption=(
-            "The velocity of the torch is that of the workpiece at the point it touches and a "
-            f"relative one, to {largest:.1e}: this is (2). The relative one points along the "
-            f"tangent of the seam, {abs(along).min():.3f} to {abs(along).max():.3f} m per radian "
-            f"of theta, and across it by at most {across:.1e}; for any two pipes it is at least "
-            "the radius of the branch per radian, so that the coordination is never tight."
-        ),
+        caption=caption("eq02", speeds=abs(along)),
     )
 
 
@@ -139,13 +133,7 @@ def workpiece_pose(assumed: Assumed) -> Result:
             "orthonormal": float(abs(R.transpose(0, 2, 1) @ R - np.eye(3)).max()),
             "turn": float(turn.max()),
         },
-        caption=(
-            "The workpiece frame, put together from the printed blocks, is where both carriers "
-            f"hold it, to {worst_gap:.1e}. To lay each seam point flat it turns by "
-            f"{turn.min():.1f} to {turn.max():.1f} deg about its origin, which stays at C. A pose "
-            "that is constant for a given C, as one sentence has it, would leave the carriers at "
-            "rest."
-        ),
+        caption=caption("eq03", least=turn.min()),
     )
 
 
@@ -163,22 +151,14 @@ def position_vectors(assumed: Assumed) -> Result:
     r = np.einsum("ji,kj->ki", cell.rotations[index], cell.flanges[:WELDER, index, :3, 3])
     return Result(
         obtained={"closure": grip_change(cell, jobs, centre), "r": r.tolist()},
-        caption=(
-            "World, base and workpiece frames with the vectors of (4) and (5). By these "
-            "equations p2 leads to the workpiece and p1, p3 to the flanges of the two carriers, "
-            f"so the indices do not count robots. The grips are {np.linalg.norm(r[0]):.3f} "
-            f"and {np.linalg.norm(r[1]):.3f} m from the origin of the workpiece."
-        ),
+        caption=caption("fig02", lengths=np.linalg.norm(r, axis=1)),
         alt="Coordinate frames joined by arrows from the world to workpiece and flanges.",
         figure=lambda: vectors_figure(cell, jobs.q[0], centre),
     )
 
 
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
-    @checks(
-        item,
-        rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)],
-    )
+    @checks(item, rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)])
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
         flange = flange_poses(cell, jobs, robot)[:, :3, 3]
@@ -202,55 +182,26 @@ _closure("pan.eq04", 0, ("r_1", "p_1"))
 _closure("pan.eq05", 1, ("r_2", "p_3"))
 
 
-@checks(
-    "pan.eq06",
-    rules=[Residual("residual", "tip of the torch misses p_w by at most [m]", high=1e-9)],
-)
-def seam_in_world(assumed: Assumed) -> Result:
-    """p_w = T_wc p_c, against the tip of the torch by forward kinematics of the welder."""
-    cell, jobs, centre = at_display(assumed)
-    cases = [
-        {"p_w": p, "T_wc": T, "p_c": point}
-        for p, T, point in zip(
-            _lifted(torch_tips(cell, jobs)),
-            cell.piece_pose(centre),
-            _lifted(cell.seam),
-            strict=True,
+def _seam_points(item: str, frame: str, label: str) -> None:
+    """p = T p_c in one frame, against the tip of the torch by forward kinematics of the welder."""
+
+    @checks(f"pan.{item}", rules=[Residual("residual", label, high=1e-9)])
+    def seam_points(assumed: Assumed) -> Result:
+        cell, jobs, centre = at_display(assumed)
+        turn = np.eye(4) if frame == "w" else np.linalg.inv(cell.bases[WELDER])
+        tips, poses = _lifted(torch_tips(cell, jobs)) @ turn.T, turn @ cell.piece_pose(centre)
+        cases = [
+            {f"p_{frame}": tip, f"T_{frame}c": pose, "p_c": seen}
+            for tip, pose, seen in zip(tips, poses, _lifted(cell.seam), strict=True)
+        ]
+        return Result(
+            obtained={"residual": worst(printed_text(f"pan.{item}"), cases)},
+            caption=caption(item, count=cell.count),
         )
-    ]
-    largest = worst(printed_text("pan.eq06"), cases)
-    return Result(
-        obtained={"residual": largest},
-        caption=(
-            "The tip of the torch, from the joint path of the welder, is on p_w to "
-            f"{largest:.1e} m at each of {cell.count} seam points."
-        ),
-    )
 
 
-@checks(
-    "pan.eq07",
-    rules=[Residual("residual", "p_B = T_Bc p_c holds for the welder to [m]", high=1e-9)],
-)
-def seam_in_base(assumed: Assumed) -> Result:
-    """p_B = T_Bc p_c in the frame of base 3, against the tip of the torch in that frame."""
-    cell, jobs, centre = at_display(assumed)
-    to_base = np.linalg.inv(cell.bases[WELDER])
-    found = _lifted(torch_tips(cell, jobs)) @ to_base.T
-    cases = [
-        {"p_B": p, "T_Bc": T, "p_c": point}
-        for p, T, point in zip(
-            found, to_base @ cell.piece_pose(centre), _lifted(cell.seam), strict=True
-        )
-    ]
-    largest = worst(printed_text("pan.eq07"), cases)
-    return Result(
-        obtained={"residual": largest},
-        caption=(
-            f"In the frame of base 3 the tip of the torch is on T_Bc p_c to {largest:.1e} m; "
-            "these are the points the inverse kinematics of the welder is given."
-        ),
-    )
+_seam_points("eq06", "w", "tip of the torch misses p_w by at most [m]")
+_seam_points("eq07", "B", "p_B = T_Bc p_c holds for the welder to [m]")
 
 
 @checks(

@@ -14,6 +14,7 @@ from .....arms import Arm
 from .....arms.wrist_geometry import wrist_geometry
 from .....errors import DataFileError, UnsupportedArmError
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.captions import captions
 from .....ledger.printed import rounds_to
 from .....scene import posing
 from .....view.arm_drawings import frames_figure
@@ -33,6 +34,7 @@ from ...reading import SHOWN, Job, at_display, at_optimum, job_scene_at
 from .coordination import grip_change
 
 checks = partial(REGISTRY.checks, page="pan/cell")
+caption = captions(__file__)
 
 
 @checks(
@@ -127,21 +129,17 @@ def spatial_model(assumed: Assumed) -> Result:
     )
 
 
-@checks(
-    "pan.claim_bases",
-    rules=[Adopts(name, f"{name} [m]", to=name) for name in BASES],
-)
+@checks("pan.claim_bases", rules=[Adopts(name, f"{name} [m]", to=name) for name in BASES])
 def positions(assumed: Assumed) -> Result:
     """Origins of the base frames that the cell uses."""
     poses = placed_bases(assumed["base_transform"], assumed["base_orientation"])
-    used = dict(zip(BASES, poses[:, :3, 3].tolist(), strict=True))
-    spread = np.linalg.norm(printed_bases()[:, :2], axis=1)
+    listed, used = printed_bases(), poses[:, :3, 3]
     return Result(
-        obtained=used,
-        caption=(
-            f"{_places(poses[:, :3, 3])}, at horizontal distances of "
-            f"{spread[0]:.3f}, {spread[1]:.3f} and {spread[2]:.3f} m from the origin of the world. "
-            "Orientations are not printed for two of them; all are taken as parallel to the world."
+        obtained=dict(zip(BASES, used.tolist(), strict=True)),
+        caption=caption(
+            "claim_bases",
+            gap=np.linalg.norm(used - listed, axis=1).max(),
+            spread=np.linalg.norm(listed[:, :2], axis=1),
         ),
     )
 
@@ -172,13 +170,7 @@ def matrix(assumed: Assumed) -> Result:
             "labelled_is_listed": _listed(labelled, listed) if as_pose else None,
             "as_labelled": gap,
         },
-        caption=(
-            f"As pose of base 1 in the world the matrix {'gives' if as_pose else 'does not give'} "
-            "the listed position. Its label makes it the "
-            f"{'map from world to base' if reading == 'literal' else 'pose'}; then base 1 "
-            f"would stand at ({', '.join(f'{v:g}' for v in labelled)}) m, {gap:.2f} m away from "
-            "the listed position."
-        ),
+        caption=caption("eq_base", listed=as_pose, reading=reading, labelled=labelled),
     )
 
 
@@ -195,11 +187,7 @@ def welding_cell(assumed: Assumed) -> Result:
     index = SHOWN[assumed["display_configuration"]]
     return Result(
         obtained={"closure": grip_change(cell, jobs, centre)},
-        caption=(
-            "Two carriers hold the main pipe by its ends, the welder follows the seam from the "
-            f"other side. Drawn at ({', '.join(f'{v:g}' for v in centre)}) m with the stand-in "
-            "arm; the drawing of the document is not in the text edition."
-        ),
+        caption=caption("fig01", centre=centre),
         alt="Three stick-figure robots around a pipe with a branch, seen from the front and above.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index),
     )
@@ -247,22 +235,14 @@ def simulation(assumed: Assumed) -> Result:
     error = _tip_error(cell, jobs, centre)
     return Result(
         obtained={"tip_error": error, "frames": cell.count},
-        caption=(
-            f"The cell carries out the whole job of {cell.count} seam points at the optimum "
-            f"obtained, with the torch on the seam to {error:.1e} m; the bars beside the bases "
-            "rise with the manipulability of each robot. The mean of the system measure is "
-            f"{measures.system.mean():.3f}. The program of the document is not available."
-        ),
+        caption=caption("fig12", measure=measures.system.mean()),
         alt="Three thick-limbed robots at work on the seam of a pipe with a branch.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, capsules=True),
         scene=lambda: job_scene_at("The whole job at the optimum obtained.", cell, jobs, centre),
     )
 
 
-@checks(
-    "pan.claim_teaching",
-    rules=[NoOriginal("experiment", "an experiment with taught robots")],
-)
+@checks("pan.claim_teaching", rules=[NoOriginal("experiment", "an experiment with taught robots")])
 def teaching(assumed: Assumed) -> Result:
     """A statement about practice."""
     return Result(
@@ -327,10 +307,3 @@ def label_reading(label: str) -> str:
 def _listed(position: np.ndarray, listed: list[str]) -> bool:
     """Whether a position rounds to the listed one."""
     return all(rounds_to(float(v), text) for v, text in zip(position, listed, strict=True))
-
-
-def _places(positions: np.ndarray) -> str:
-    gap = np.linalg.norm(positions - printed_bases(), axis=1).max()
-    if gap < 1e-12:
-        return "The three bases stand where the list puts them"
-    return f"The three bases stand up to {gap:.2f} m from where the list puts them"

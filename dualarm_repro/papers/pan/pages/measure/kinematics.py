@@ -10,6 +10,7 @@ from scipy.linalg import block_diag
 
 from .....arms import Arm
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
+from .....ledger.captions import captions
 from .....welding import closed_form
 from .....welding.ellipsoid import gram_matrices
 from .....welding.manipulability import tight_measure
@@ -18,6 +19,7 @@ from ...document import SEED, stand_in
 from ...print_forms import block_matrix, block_residual, printed_text, residual, value, worst
 
 checks = partial(REGISTRY.checks, page="pan/measure")
+caption = captions(__file__)
 _SAMPLES = 500
 
 
@@ -72,13 +74,7 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
         [{"x_dot": v[:, np.newaxis], "J": one} for v, one in zip(extreme, J, strict=True)],
     )
     return Result(
-        obtained={"on_ellipsoid": surface, "inside": inside, "axes": axes},
-        caption=(
-            "Unit joint velocities without a part in the null space of J map onto the ellipsoid "
-            f"(residual {surface:.1e}), all others into it. The unit sphere of "
-            "joint velocities fills it only where J has full row rank. Its axes are the singular "
-            "values of J, which for a matrix that is not symmetric are no eigenvalues."
-        ),
+        obtained={"on_ellipsoid": surface, "inside": inside, "axes": axes}, caption=caption("eq10")
     )
 
 
@@ -111,19 +107,12 @@ def single_measure(assumed: Assumed) -> Result:
             "axes_1_4_6": others,
             "largest": float(closed.max()),
         },
-        caption=(
-            "For six joints with a spherical wrist omega factors into link lengths, the sine of "
-            "the elbow angle, the distance of the wrist centre from axis 1 and the sine of q5; "
-            f"this equals the determinant to {difference:.1e} m^3. Neither the tool nor joints 1, "
-            "4 and 6 have a part in it. The unit is m^3, since three of the six rows are in "
-            "metres."
-        ),
+        caption=caption("eq11"),
     )
 
 
 @checks(
-    "pan.eq12",
-    rules=[Residual("difference", "X_dot and J Q_dot differ by at most", high=1e-7)],
+    "pan.eq12", rules=[Residual("difference", "X_dot and J Q_dot differ by at most", high=1e-7)]
 )
 def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
@@ -176,12 +165,7 @@ def stacked_sizes(assumed: Assumed) -> Result:
     defined = (size[1], size[0]) == (printed["Q_dot"][0], printed["X_dot"][0]) if fits else None
     return Result(
         obtained={"stacked": fits, "as_printed": defined, "sizes": printed, "entries": stacked},
-        caption=(
-            f"With the sizes as printed, {_told(printed['X_dot'])} and {_told(printed['Q_dot'])}, "
-            f"the product of (12) is {'' if defined else 'not '}defined. As vectors of "
-            f"{stacked['X_dot']} and {stacked['Q_dot']} entries the velocities "
-            f"{'' if fits else 'do not '}fit the matrix of {rows} x {columns}."
-        ),
+        caption=caption("eq13", rows=rows, columns=columns),
     )
 
 
@@ -218,11 +202,7 @@ def generalized_jacobian(assumed: Assumed) -> Result:
     difference = block_residual(printed_text("pan.eq14", "matrix"), blocks, J)
     return Result(
         obtained={"difference": difference, "size_agrees": printed == J.shape, "size": printed},
-        caption=(
-            f"In one model of both carriers the Jacobian is {J.shape[0]} x {J.shape[1]}, and the "
-            f"blocks of (14) differ from it by {difference:.1e}. The printed size is "
-            f"{_told(printed)} for m = n = 6; in general it would have to be 2m x 2n."
-        ),
+        caption=caption("eq14", shape=J.shape),
     )
 
 
@@ -267,10 +247,6 @@ def _size(entry: dict[str, str], m: int, n: int) -> tuple[int, int]:
     """Rows and columns as printed, for robots of m by n."""
     given = {"m": m, "n": n}
     return int(value(entry["rows"], given)), int(value(entry["columns"], given))
-
-
-def _told(size: tuple[int, int]) -> str:
-    return f"{size[0]} x {size[1]}"
 
 
 def _eigenvalues(matrix: np.ndarray) -> np.ndarray:

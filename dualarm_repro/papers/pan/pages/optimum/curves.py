@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.seam_curves import joints_figure, measures_figure
-from .....welding import (
-    ROBOTS,
-    WELDER,
-    Cell,
-    Jobs,
-    closed_form,
-    flange_poses,
-    joint_margin,
-)
+from .....welding import ROBOTS, WELDER, Cell, Jobs, closed_form, flange_poses, joint_margin
 from ...document import SEED, stand_in
 from ...reading import (
     Measure,
@@ -36,6 +27,7 @@ from ...reading import (
 from .problem import nothing_feasible
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
+caption = captions(__file__)
 #: The position of the lowest welder is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
@@ -62,12 +54,7 @@ def optimal_curves(assumed: Assumed) -> Result:
             "range": [float(measures.system.min()), float(measures.system.max())],
         },
         table=curve_table(w, measures.system, assumed["time_axis"]),
-        caption=(
-            f"At the optimum the system measure stays between {measures.system.min():.3f} and "
-            f"{measures.system.max():.3f}; the welder's lies between {w[2].min():.3f} and "
-            f"{w[2].max():.3f} m^3, since in the flat position it hardly moves. Values of the "
-            "printed curves are not known, nor which measures they show."
-        ),
+        caption=caption("fig16", w=w[WELDER]),
         alt="Manipulability of three robots and of the system along the seam, well above zero.",
         figure=lambda: measures_figure({"at the optimum": (w, measures)}),
     )
@@ -124,11 +111,11 @@ def largest_measure(arm: str) -> float:
     return float(closed_form(model, q).max())
 
 
-def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
+def _poor_figure(item: str, letter: str) -> None:
     """Curves and scene at one of the two positions, beside the curves at the optimum."""
 
     @checks(
-        item,
+        f"pan.{item}",
         rules=[
             Residual(
                 "recomputed",
@@ -154,27 +141,15 @@ def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
                 "position": centre.tolist(),
             },
             table=curve_table(jobs.w[0], measures.system, assumed["time_axis"]),
-            caption=(
-                f"Position ({letter}), found by the stated rule: ({point(centre, 3)}) m, "
-                f"{status_name(jobs)}. {describe(here)} Its mean is "
-                f"{here.mean() / there.mean():.0%} of that at the optimum."
-            ),
+            caption=caption(item, status=status_name(jobs), curve=here),
             alt=f"Manipulability curves at position ({letter}) beside those at the optimum.",
             figure=lambda: measures_figure(panels),
             scene=lambda: job_scene_at(f"The job at position ({letter}).", cell, jobs, centre),
         )
 
 
-_poor_figure(
-    "pan.fig18",
-    "a",
-    lambda w: f"The welder's manipulability lies between {w.min():.3f} and {w.max():.3f} m^3.",
-)
-_poor_figure(
-    "pan.fig19",
-    "b",
-    lambda m: f"The system measure swings between {m.min():.3f} and {m.max():.3f}.",
-)
+_poor_figure("fig18", "a")
+_poor_figure("fig19", "b")
 
 
 @checks(
@@ -184,7 +159,7 @@ _poor_figure(
             "largest_share",
             "welder's largest manipulability on the seam, as a share of the arm's largest",
             high="near_zero",
-        ),
+        )
     ],
 )
 def near_zero(assumed: Assumed) -> Result:
@@ -197,13 +172,7 @@ def near_zero(assumed: Assumed) -> Result:
     share = float(jobs.w[0, WELDER].max() / largest_measure(job.arm))
     return Result(
         obtained={"largest_share": share, "position": best.position.tolist()},
-        caption=(
-            "The text has the welder's curve near zero on the whole seam. At the poor position "
-            f"found, ({point(best.position, 3)}) m, it rises to {share:.1%} of the largest "
-            "manipulability of the arm somewhere on the seam, with a torch of "
-            f"{job.torch_length:g} m bent by {job.torch_crank:g} deg. How low it can stay depends "
-            "on the torch, whose shape and working angle are not printed."
-        ),
+        caption=caption("claim_near_zero_robot3", job=job),
     )
 
 
@@ -214,7 +183,7 @@ def near_zero(assumed: Assumed) -> Result:
             "swing",
             "range of the system measure along the seam over its maximum, at position (b)",
             low="unsteady",
-        ),
+        )
     ],
 )
 def unsteady(assumed: Assumed) -> Result:
@@ -227,11 +196,8 @@ def unsteady(assumed: Assumed) -> Result:
     swing = float(np.ptp(system) / system.max())
     return Result(
         obtained={"swing": swing, "position": poor.position.tolist()},
-        caption=(
-            f"At the least steady position, ({point(poor.position, 3)}) m, the system measure "
-            f"loses {swing:.0%} of its maximum along the seam. The text connects this with "
-            "unreachable points or collisions; the position found is "
-            f"{status_name(solved(problem.job, tuple(poor.position)))}."
+        caption=caption(
+            "claim_unstable_b", status=status_name(solved(problem.job, tuple(poor.position)))
         ),
     )
 

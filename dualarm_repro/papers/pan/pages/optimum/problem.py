@@ -12,7 +12,7 @@ import pandas as pd
 
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.landscape import slices_figure
 from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
 from .....welding.motion import smallest_rank
@@ -21,6 +21,7 @@ from ...print_forms import holds, printed_text, value
 from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, surveyed
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
+caption = captions(__file__)
 _CONSTRAINTS = {
     "joint angles within limits": Status.JOINT_LIMITS,
     "away from singularities": Status.SINGULAR,
@@ -73,13 +74,7 @@ def problem(assumed: Assumed) -> Result:
             "optimum": best.position.tolist(),
             "fitness": best.fitness,
         },
-        caption=(
-            f"The constraints leave {share:.1%} of the region. The best fitness, "
-            f"{best.fitness:.4f}, is taken at ({point(best.position, 3)}) m, {edge:.2f} m from "
-            f"the edge of the region; of a second grid of {len(values)} points {better} are "
-            "better. The printed constraints, evaluated on joint paths one by "
-            f"one, disagree with the search at {disagreements} positions."
-        ),
+        caption=caption("eq_opt", second=len(values)),
         alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",
         figure=lambda: slices_figure(
             placement, bounds, best.position, best.fitness, printed_optimum()
@@ -109,15 +104,10 @@ def constraints(assumed: Assumed) -> Result:
     reached = bool(np.isfinite(jobs.q).all())
     status = surveyed(task).status
     excluded = {name: float((status == cause).mean()) for name, cause in _CONSTRAINTS.items()}
-    told = ", ".join(f"{name} {share:.1%}" for name, share in excluded.items())
     obtained = {"count": len(set(Status)) - 1, "reached": reached, "excluded": excluded}
     if not reached:
         missing = dict.fromkeys(("separation", "joint_margin", "rank"))
-        return Result(
-            obtained=obtained | missing,
-            caption="At the optimum some points of a denser seam are out of reach. Tested in turn "
-            f"the constraints exclude of the region: {told}.",
-        )
+        return Result(obtained=obtained | missing, caption=caption("claim_constraints"))
     nearest, margin = _nearest_pairs(cell, jobs), float(np.degrees(joint_margin(cell, jobs)))
     return Result(
         obtained=obtained
@@ -128,13 +118,7 @@ def constraints(assumed: Assumed) -> Result:
             "separations": nearest.to_dict(),
         },
         table=nearest.rename("separation_m").rename_axis("pair").reset_index(),
-        caption=(
-            f"At the optimum, on a seam of {fine.seam_points} points, the nearest pair "
-            f"({nearest.index[0]}) is {nearest.iloc[0]:.3f} m apart and the nearest joint limit "
-            f"{margin:.1f} deg away. Tested in turn the constraints exclude of the region: "
-            f"{told}. Of the pairs, torch and workpiece have the same distance at every position, "
-            "since both follow the seam; the others are given one by one for that reason."
-        ),
+        caption=caption("claim_constraints", points=fine.seam_points),
     )
 
 

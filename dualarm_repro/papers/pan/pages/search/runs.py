@@ -11,7 +11,7 @@ import pandas as pd
 from scipy.stats import spearmanr
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.search_plots import best_individual_figure, history_figure, optimisers_figure
 from .....welding import Evolution
 from ...document import printed_optimum
@@ -20,6 +20,7 @@ from ...studies.evolution import Runs, stored_runs
 from ...studies.optimisers import BUDGET, OPTIMISERS, TRUTH
 
 checks = partial(REGISTRY.checks, page="pan/search")
+caption = captions(__file__)
 #: Draws of the assumptions for items that need a genetic run each.
 _DRAWS = 16
 
@@ -51,12 +52,7 @@ def best_individual(assumed: Assumed) -> Result:
             "distance_to_printed": float(distance.min()),
         },
         table=pd.DataFrame(runs.best, columns=["x_m", "y_m", "z_m"]).assign(fitness=runs.fitness),
-        caption=(
-            f"All {len(runs.best)} runs come within {100 * gap:.3f} % of the ground truth. Which "
-            "of two mirror images they return is chance, and x scatters most, since the fitness "
-            f"is flat along it. The first run ends at ({point(runs.best[0], 3)}) m, "
-            f"{distance[0]:.2f} m from the printed point."
-        ),
+        caption=caption("fig13", runs=runs, first=distance[0]),
         alt="Bars of the three coordinates of the best individual beside the printed coordinates.",
         figure=lambda: best_individual_figure(runs.best, printed),
     )
@@ -86,12 +82,7 @@ def fitness_curves(assumed: Assumed) -> Result:
             "mean_last": float(np.median(mean[:, -1])),
         },
         table=_history_table(runs, ("best", "mean")),
-        caption=(
-            f"Best and mean fitness of {len(best)} runs (median, band of all). The best settles "
-            f"at {np.median(best[:, -1]):.3f}; the mean, in which infeasible individuals count as "
-            f"0, ends at {np.median(mean[:, -1]):.3f}. It rises late because the mutations shrink "
-            "to nothing by the last generation. No value of the printed curves is known."
-        ),
+        caption=caption("fig14", runs=len(best)),
         alt="Two rising curves against the generation; the upper one is flat for most of the run.",
         figure=lambda: history_figure({"best": best, "mean": mean}, "fitness"),
     )
@@ -171,20 +162,12 @@ def distance_to_zero(assumed: Assumed) -> Result:
     """Mean distance in the last generation relative to the first, and its trend."""
     run = run_of(assumed)
     distance = np.array([generation.distance for generation in run.history])
-    ratio = float(distance[-1] / distance[0])
-    trend = float(spearmanr(np.arange(len(distance)), distance).statistic)
-    schedule = (
-        "The noise of the mutations is scheduled to vanish with the last generation, which "
-        "builds the fall in."
-        if assumed["ga_mutation"] == "gaussian"
-        else "The mutations adapt their step."
-    )
     return Result(
-        obtained={"ratio": ratio, "trend": trend},
-        caption=(
-            f"The mean distance changes to {ratio:.2%} of its first value, with a rank "
-            f"correlation of {trend:.2f} with the generation. {schedule}"
-        ),
+        obtained={
+            "ratio": float(distance[-1] / distance[0]),
+            "trend": float(spearmanr(np.arange(len(distance)), distance).statistic),
+        },
+        caption=caption("claim_distance_to_zero", mutation=assumed["ga_mutation"]),
     )
 
 
@@ -212,20 +195,7 @@ def largest_measure(assumed: Assumed) -> Result:
     return Result(
         obtained={"gap": gap, "violated": violated, "truth": truth, "within_0.1_percent": told},
         table=peers,
-        caption=(
-            f"A run ends {100 * gap:.3f} % below the ground truth, at a position that "
-            f"{'violates a constraint' if violated else 'meets every constraint'} on a seam of "
-            f"{DENSER} times as many points. "
-            + (
-                "With the same number of evaluations 0.1 % is reached in "
-                + ", ".join(f"{count} ({name})" for name, count in told.items())
-                + " of ten runs: others are more exact. "
-                if told
-                else ""
-            )
-            + "Two mirror images can be equally good, so that no single point is the global "
-            "maximum."
-        ),
+        caption=caption("claim_max_mmr", denser=DENSER, within=told),
         alt="Gap to the ground truth and computing time of seven optimisers, ten runs each.",
         figure=lambda: optimisers_figure(
             OPTIMISERS.load().query("optimiser != @TRUTH"), truth, BUDGET
