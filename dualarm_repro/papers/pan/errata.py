@@ -126,7 +126,7 @@ def rank_condition() -> Proof:
     text = next(c for c in printed_text("pan.eq_opt", "subject_to") if c.startswith("Rank"))
     names = {"Rank": np.linalg.matrix_rank, "min": min, "m": 6, "n": 6}
     full, at_near = (holds(text, {**names, "J": arm.jacobian(rows)}) for rows in (q, near))
-    smallest = float(arm.manipulability(near).max())
+    smallest = float(np.max(arm.manipulability(near)))
     return Proof(
         "the printed condition holds at every one of 10 000 random configurations and still a "
         "millionth of a radian from a wrist singularity, where the arm can hardly move",

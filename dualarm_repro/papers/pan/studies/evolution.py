@@ -83,13 +83,9 @@ def stored_runs(count: int, variant: str = "declared") -> Runs:
     table = EVOLUTION.load()
     table = table[table["variant"] == variant].head(count)
 
-    def history(name: str) -> np.ndarray:
-        columns = [column for column in table.columns if column.rpartition("_")[0] == name]
-        return table[columns].to_numpy()
-
     return Runs(
         table[["x", "y", "z"]].to_numpy(),
         table["fitness"].to_numpy(),
         list(zip(table["generations"].tolist(), table["reason"], strict=True)),
-        {name: history(name) for name in Generation._fields},
+        {n: table.filter(regex=rf"^{n}_\d+$").to_numpy() for n in Generation._fields},
     )

@@ -48,8 +48,9 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
     with the declared number of seam points.
     """
     entries = {key: REGISTRY.declared(f"pan.{key}", "value", "range", "choices") for key in VARIED}
-    shares, best, count = _best_draw(entries, rng)
-    step = 0.25
+    draws = [dict(zip(VARIED, row, strict=True)) for row in rng.random((DRAWS, len(VARIED)))]
+    gaps = [distance(_values(entries, draw), _COARSE) for draw in draws]
+    shares, best, count, step = draws[int(np.argmin(gaps))], min(gaps), DRAWS, 0.25
     while count < EVALUATIONS and step >= _SMALLEST and best > _NEAR:
         improved = False
         for key in rng.permutation(VARIED):
@@ -92,14 +93,6 @@ def loss_at_print(problem: Problem) -> float:
 def _problem(values: Mapping[str, Any], seam_points: int | None = None) -> Problem:
     every = {**REGISTRY.nominal("pan"), **values}
     return Problem.of(every | {"seam_points": seam_points} if seam_points else every)
-
-
-def _best_draw(
-    entries: Mapping[str, Any], rng: np.random.Generator
-) -> tuple[dict[str, float], float, int]:
-    draws = [dict(zip(VARIED, row, strict=True)) for row in rng.random((DRAWS, len(VARIED)))]
-    gaps = [distance(_values(entries, draw), _COARSE) for draw in draws]
-    return draws[int(np.argmin(gaps))], min(gaps), DRAWS
 
 
 def _values(entries: Mapping[str, Any], shares: Mapping[str, float]) -> dict[str, Any]:

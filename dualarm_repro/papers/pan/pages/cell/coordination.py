@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import captions, point
+from .....ledger.captions import captions
 from .....view.welding_cell import vectors_figure
 from .....welding import ROBOTS, WELDER, Cell, Jobs, flange_poses, held_poses, torch_tips
 from .....welding.motion import periodic_derivative
@@ -50,14 +50,8 @@ def tight_coordination(assumed: Assumed) -> Result:
         J = np.eye(6)
         J[:3, 3:] = -pin.skew(body.rotation @ (arms[0] - arms[1]))
         cases.append({"x1_dot": first, "x2_dot": second, "J": J})
-    largest = worst(printed_text("pan.eq01"), cases)
     return Result(
-        obtained={"residual": largest},
-        caption=(
-            "For two points of one rigid body (1) holds with J = [[I, -[r]x], [0, I]], r the "
-            f"vector between them: on 100 random motions to {largest:.1e}. J is a map between "
-            "twists; from (9) on the same letter is the Jacobian of an arm."
-        ),
+        obtained={"residual": worst(printed_text("pan.eq01"), cases)}, caption=caption("eq01")
     )
 
 
@@ -158,28 +152,25 @@ def position_vectors(assumed: Assumed) -> Result:
 
 
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
-    @checks(item, rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)])
+    @checks(
+        f"pan.{item}", rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)]
+    )
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
         flange = flange_poses(cell, jobs, robot)[:, :3, 3]
-        r = grips(cell, jobs, robot, centre)
+        r = grips(cell, jobs, robot, centre)[0]
         cases = [
-            {"p_2": centre, "R_wc": R, names[0]: r[0], names[1]: end}
+            {"p_2": centre, "R_wc": R, names[0]: r, names[1]: end}
             for R, end in zip(cell.rotations, flange, strict=True)
         ]
-        largest = worst(printed_text(item), cases)
         return Result(
-            obtained={"residual": largest, "r": r[0].tolist()},
-            caption=(
-                f"With the grasp assumed, r = ({point(r[0], 3)}) m leads from the workpiece "
-                f"origin to the flange of {ROBOTS[robot]}; the flange found by forward kinematics "
-                f"of its joint path meets the closure to {largest:.1e} m along the seam."
-            ),
+            obtained={"residual": worst(printed_text(f"pan.{item}"), cases), "r": r.tolist()},
+            caption=caption("closure", robot=ROBOTS[robot]),
         )
 
 
-_closure("pan.eq04", 0, ("r_1", "p_1"))
-_closure("pan.eq05", 1, ("r_2", "p_3"))
+_closure("eq04", 0, ("r_1", "p_1"))
+_closure("eq05", 1, ("r_2", "p_3"))
 
 
 def _seam_points(item: str, frame: str, label: str) -> None:
@@ -220,14 +211,7 @@ def workpiece_in_base(assumed: Assumed) -> Result:
             given = {"T_Bc": T_Bc, "T_wc": T_wc}
             largest = max(largest, residual(text, {**given, "T_Bw": to_base}))
             wrong = min(wrong, float(np.linalg.norm((base @ T_wc - T_Bc)[:3, 3])))
-    return Result(
-        obtained={"residual": largest, "other": wrong},
-        caption=(
-            "The pose of the workpiece in a carrier's base frame, from its joint path and its "
-            f"grasp, equals T_Bw T_wc to {largest:.1e} with T_Bw the inverse of the pose of the "
-            f"base. With that pose itself in its place it would be off by at least {wrong:.2f} m."
-        ),
-    )
+    return Result(obtained={"residual": largest, "other": wrong}, caption=caption("eq08"))
 
 
 @checks(

@@ -67,10 +67,7 @@ def robot_data(assumed: Assumed) -> Result:
             "evidence": robot.evidence,
         },
         table=table,
-        caption=(
-            "The document has no table and prints neither parameters nor limits of its robot. "
-            f"Used instead: {robot.title}. Its evidence: {robot.evidence}"
-        ),
+        caption=caption("tab_none", title=robot.title),
     )
 
 
@@ -93,11 +90,7 @@ def link_frames(assumed: Assumed) -> Result:
     drawn = np.array([np.eye(4), *frames])
     return Result(
         obtained={"axis_error": error, "origins": drawn[:, :3, 3].tolist()},
-        caption=(
-            f"Frames 0 to 6 of the stand-in arm ({arm.name}) at q = 0 in the modified convention. "
-            "The parameters of the ER16 are called known in the document but are not given, so "
-            "the figure cannot be compared."
-        ),
+        caption=caption("fig09", arm=arm.name),
         alt="Seven coordinate frames along an arm with an upright upper arm and a level forearm.",
         figure=lambda: frames_figure(drawn, 0.22),
     )
@@ -119,11 +112,7 @@ def spatial_model(assumed: Assumed) -> Result:
     job = replace(nominal, arm=arm.name, link_radius_scale=assumed["link_radius_scale"])
     return Result(
         obtained={"bare": _bare(arm), "reach": reach},
-        caption=(
-            "The stand-in arm with the capsules that stand for its links; its wrist reaches "
-            f"{reach:.2f} m from axis 1. No drawing of the ER16 was available, so the radii are "
-            "assumed."
-        ),
+        caption=caption("fig10"),
         alt="A six-joint arm drawn as translucent capsules with its skeleton inside.",
         figure=lambda: capsule_figure(job.cell(), np.radians([0, 20, 10, 0, 60, 0]), WELDER),
     )
@@ -212,11 +201,7 @@ def real_system(assumed: Assumed) -> Result:
             "feasible": bool(jobs.feasible[0]),
             "separation": float(jobs.separation[0]),
         },
-        caption=(
-            "The document shows a photograph or picture of its hardware, which no computation can "
-            "regenerate; here is the stand-in cell, whose smallest separation on the whole seam is "
-            f"{jobs.separation[0]:.3f} m."
-        ),
+        caption=caption("fig04"),
         alt="Three thick-limbed robots around a pipe with a branch.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, capsules=True),
     )
@@ -232,9 +217,8 @@ def real_system(assumed: Assumed) -> Result:
 def simulation(assumed: Assumed) -> Result:
     """The whole job at the optimum obtained."""
     cell, jobs, centre, measures = at_optimum(assumed)
-    error = _tip_error(cell, jobs, centre)
     return Result(
-        obtained={"tip_error": error, "frames": cell.count},
+        obtained={"tip_error": _tip_error(cell, jobs, centre), "frames": cell.count},
         caption=caption("fig12", measure=measures.system.mean()),
         alt="Three thick-limbed robots at work on the seam of a pipe with a branch.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, capsules=True),
@@ -266,12 +250,10 @@ def _bare(arm: Arm) -> float:
     posing.place_cores(frames, links.joint, links.local, ends)
     start, along = ends[0, :, 0], ends[0, :, 1] - ends[0, :, 0]
     square = np.maximum(np.sum(along**2, axis=1), 1e-300)
-    depths = []
-    for frame in _joint_frames(arm, np.zeros(arm.nq)):
-        share = np.clip(np.sum((frame[:3, 3] - start) * along, axis=1) / square, 0.0, 1.0)
-        nearest = start + share[:, np.newaxis] * along
-        depths.append((np.linalg.norm(frame[:3, 3] - nearest, axis=1) - links.radius).min())
-    return float(max(depths))
+    joints = np.array(_joint_frames(arm, np.zeros(arm.nq)))[:, np.newaxis, :3, 3]
+    share = np.clip(np.sum((joints - start) * along, axis=-1) / square, 0.0, 1.0)
+    apart = np.linalg.norm(joints - (start + share[..., np.newaxis] * along), axis=-1)
+    return float((apart - links.radius).min(axis=1).max())
 
 
 def _joint_frames(arm: Arm, q: np.ndarray) -> list[np.ndarray]:

@@ -77,11 +77,7 @@ def workpiece(assumed: Assumed) -> Result:
     length, branch, seam = assumed["workpiece_length"], assumed["branch_length"], model.seam
     return Result(
         obtained={"residual": _residual(model)},
-        caption=(
-            f"Main pipe of radius {model.radius_main:g} m and length {length:g} m along x, branch "
-            f"of radius {model.radius_branch:g} m along z, and the seam where they meet. The "
-            "drawing carries no dimensions, so these are assumed."
-        ),
+        caption=caption("fig05", model=model, length=length),
         alt="A level pipe with a thinner pipe standing on its middle; the seam is a saddle curve.",
         figure=lambda: pipes_figure(seam, model.radius_main, model.radius_branch, length, branch),
     )

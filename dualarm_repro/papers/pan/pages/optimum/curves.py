@@ -83,21 +83,16 @@ def joint_curves(assumed: Assumed) -> Result:
         for k, name in enumerate(ROBOTS)
         for j in range(6)
     }
-    margin = float(np.degrees(joint_margin(cell, jobs)))
     return Result(
         obtained={
             "carried": _carried(cell, jobs, centre),
             "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
-            "joint_margin": margin,
+            "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "span_deg": span.tolist(),
             "branches": jobs.branch[0].tolist(),
         },
         table=pd.DataFrame(columns).rename_axis(assumed["time_axis"]).reset_index(),
-        caption=(
-            "Joint paths at the optimum, each on one branch, closed after one turn and at least "
-            f"{margin:.1f} deg within limits. The carriers' joints sweep up to "
-            f"{span[:2].max():.0f} deg, the welder's {span[2, :5].max():.0f} deg."
-        ),
+        caption=caption("fig17"),
         alt="Six joint angles of each of three robots along the seam, smooth and periodic.",
         figure=lambda: joints_figure(cell, q),
     )
