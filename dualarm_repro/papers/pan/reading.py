@@ -101,9 +101,26 @@ class Job(FlatSeam):
     torch_exemption: float
     floor: str
 
+    @memo(_CELLS)
     def cell(self) -> Cell:
         """Arms, workpiece and tools put together."""
-        return _cell(self)
+        scale, bend = self.link_radius_scale, radians(self.torch_crank)
+        torch = Torch(self.torch_length, bend, scale * TORCH_RADIUS, self.torch_exemption)
+        return assemble(
+            [stand_in(self.arm, self.shoulder_height, scale)] * 3,
+            placed_bases(self.base_transform, self.base_orientation),
+            Workpiece(
+                self.radius_main,
+                self.radius_branch,
+                self.workpiece_length,
+                self.branch_length,
+                round(self.seam_points),
+            ),
+            self.flat_posture,
+            Tools(self.grasp, self.gripper_length, scale * GRIPPER_RADIUS, torch, self.torch_axis),
+            floor=_FLOORS[self.floor],
+            threshold=self.singularity_threshold,
+        )
 
     def placement(self, objective: Objective | None = None) -> Placement:
         """Fitness of positions of this cell."""
@@ -181,29 +198,6 @@ class Problem:
     def placement(self) -> Placement:
         """Fitness of positions."""
         return self.job.placement(self.measure.reading())
-
-
-@memo(_CELLS)
-def _cell(job: Job) -> Cell:
-    scale = job.link_radius_scale
-    torch = Torch(
-        job.torch_length, radians(job.torch_crank), scale * TORCH_RADIUS, job.torch_exemption
-    )
-    return assemble(
-        [stand_in(job.arm, job.shoulder_height, scale)] * 3,
-        placed_bases(job.base_transform, job.base_orientation),
-        Workpiece(
-            job.radius_main,
-            job.radius_branch,
-            job.workpiece_length,
-            job.branch_length,
-            round(job.seam_points),
-        ),
-        job.flat_posture,
-        Tools(job.grasp, job.gripper_length, scale * GRIPPER_RADIUS, torch, job.torch_axis),
-        floor=_FLOORS[job.floor],
-        threshold=job.singularity_threshold,
-    )
 
 
 @memo(_LARGE)

@@ -47,8 +47,7 @@ def tight_coordination(assumed: Assumed) -> Result:
         velocities = _screw_velocities(body, twist, arms)
         turn = body.rotation @ twist[3:]
         first, second = (np.concatenate([v, turn]) for v in velocities)
-        J = np.eye(6)
-        J[:3, 3:] = -pin.skew(body.rotation @ (arms[0] - arms[1]))
+        J = _between(body.rotation @ (arms[0] - arms[1]))
         cases.append({"x1_dot": first, "x2_dot": second, "J": J})
     return Result(
         obtained={"residual": worst(printed_text("pan.eq01"), cases)}, caption=caption("eq01")
@@ -78,26 +77,22 @@ def loose_coordination(assumed: Assumed) -> Result:
     turning = periodic_derivative(R) @ R.transpose(0, 2, 1)
     cases, slip = [], periodic_derivative(seam.points)
     for n in range(0, _FINE, 10):
-        lever = R[n] @ seam.points[n]
-        J = np.eye(6)
-        J[:3, 3:] = -pin.skew(lever)
         omega = np.array([turning[n, 2, 1], turning[n, 0, 2], turning[n, 1, 0]])
         cases.append(
             {
                 "x1_dot": np.concatenate([torch[n], omega]),
                 "x2_dot": np.concatenate([np.zeros(3), omega]),
-                "J": J,
+                "J": _between(R[n] @ seam.points[n]),
                 "alpha_dot": np.concatenate([R[n] @ slip[n], np.zeros(3)]),
             }
         )
     relative = np.einsum("nij,nj->ni", R, slip)
     along = np.sum(relative * tangent, axis=1)
-    across = float(np.linalg.norm(relative - along[:, np.newaxis] * tangent, axis=1).max())
-    largest = worst(printed_text("pan.eq02"), cases)
+    across = np.linalg.norm(relative - along[:, np.newaxis] * tangent, axis=1)
     return Result(
         obtained={
-            "residual": largest,
-            "across": across,
+            "residual": worst(printed_text("pan.eq02"), cases),
+            "across": float(across.max()),
             "along": float(abs(along).min() / flat.radius_branch),
         },
         caption=caption("eq02", speeds=abs(along)),
@@ -115,15 +110,15 @@ def workpiece_pose(assumed: Assumed) -> Result:
     """The printed blocks of the transform against the pose that both carriers hold."""
     cell, jobs, centre = at_display(assumed)
     R, rows = cell.rotations, printed_text("pan.eq03", "matrix")
-    worst_gap = max(
+    gaps = [
         block_residual(rows, {"R_wc": R[n], "P_wc0": centre}, held)
         for robot in range(WELDER)
         for n, held in enumerate(held_poses(cell, jobs, robot))
-    )
+    ]
     turn = np.degrees(np.arccos(np.clip((np.trace(R, axis1=1, axis2=2) - 1) / 2, -1, 1)))
     return Result(
         obtained={
-            "residual": worst_gap,
+            "residual": max(gaps),
             "orthonormal": float(abs(R.transpose(0, 2, 1) @ R - np.eye(3)).max()),
             "turn": float(turn.max()),
         },
@@ -241,6 +236,13 @@ def no_relative_motion(assumed: Assumed) -> Result:
 def _lifted(points: np.ndarray) -> np.ndarray:
     """Points (N, 3) in homogeneous coordinates (N, 4)."""
     return np.column_stack([points, np.ones(len(points))])
+
+
+def _between(lever: np.ndarray) -> np.ndarray:
+    """J = [[I, -[r]x], [0, I]] between the twists at two points, r (3,) from one to the other."""
+    J = np.eye(6)
+    J[:3, 3:] = -pin.skew(lever)
+    return J
 
 
 def _screw_velocities(body: pin.SE3, twist: np.ndarray, points: np.ndarray) -> np.ndarray:

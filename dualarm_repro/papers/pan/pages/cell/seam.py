@@ -35,14 +35,15 @@ def saddle_curve(assumed: Assumed) -> Result:
     x, y, z = (in_symbols(lines[axis], 1, **symbols) for axis in "xyz")
     rb, ra = symbols["R_b"], symbols["R_a"]
     on_pipes = sp.simplify(x**2 + y**2 - rb**2) == 0 and sp.simplify(y**2 + z**2 - ra**2) == 0
-    seam = model.seam
-    radii = {ra: model.radius_main, rb: model.radius_branch}
+    seam, radii = model.seam, {ra: model.radius_main, rb: model.radius_branch}
     formula = sp.lambdify(symbols["theta"], [part.subs(radii) for part in (x, y, z)], "numpy")
     printed = np.column_stack(np.broadcast_arrays(seam.theta, *formula(seam.theta)))[:, 1:]
-    difference = float(abs(printed - seam.points).max())
-    height = np.ptp(seam.points[:, 2])
     return Result(
-        obtained={"on_pipes": bool(on_pipes), "points": difference, "height": float(height)},
+        obtained={
+            "on_pipes": bool(on_pipes),
+            "points": float(abs(printed - seam.points).max()),
+            "height": float(np.ptp(seam.points[:, 2])),
+        },
         caption=caption("eq17"),
     )
 

@@ -56,25 +56,24 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
     """Unit joint velocities fill the ellipsoid; the axes are the singular values."""
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     J = arm.jacobian(arm.random_configurations(_SAMPLES, rng))[:, :3]
-    axes = worst(
-        printed_text("pan.eq10", "axes"),
-        [
-            {"sigma_i": np.linalg.svd(one, compute_uv=False), "J": one, "lambda_i": _eigenvalues}
-            for one in J
-        ],
-    )
+    axes = [
+        {"sigma_i": np.linalg.svd(one, compute_uv=False), "J": one, "lambda_i": _eigenvalues}
+        for one in J
+    ]
     inverse = np.linalg.inv(J @ J.transpose(0, 2, 1))
     velocity = np.einsum("nij,nj->ni", J, _unit(rng.normal(size=(_SAMPLES, 6))))
-    inside = float(np.einsum("ni,nij,nj->n", velocity, inverse, velocity).max())
+    inside = np.einsum("ni,nij,nj->n", velocity, inverse, velocity)
     # q_dot = J^T s reaches the surface: it has no part in the null space of J.
     row = _unit(np.einsum("nji,nj->ni", J, rng.normal(size=(_SAMPLES, 3))))
-    extreme = np.einsum("nij,nj->ni", J, row)
-    surface = worst(
-        printed_text("pan.eq10"),
-        [{"x_dot": v[:, np.newaxis], "J": one} for v, one in zip(extreme, J, strict=True)],
-    )
+    extreme = zip(np.einsum("nij,nj->ni", J, row), J, strict=True)
+    cases = [{"x_dot": v[:, np.newaxis], "J": one} for v, one in extreme]
     return Result(
-        obtained={"on_ellipsoid": surface, "inside": inside, "axes": axes}, caption=caption("eq10")
+        obtained={
+            "on_ellipsoid": worst(printed_text("pan.eq10"), cases),
+            "inside": float(inside.max()),
+            "axes": worst(printed_text("pan.eq10", "axes"), axes),
+        },
+        caption=caption("eq10"),
     )
 
 
@@ -91,20 +90,15 @@ def single_measure(assumed: Assumed) -> Result:
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     q = arm.random_configurations(_SAMPLES, rng)
     closed = closed_form(arm, q)
-    difference = worst(
-        printed_text("pan.eq11"),
-        [{"omega": w, "J": J} for w, J in zip(closed, arm.jacobian(q), strict=True)],
-    )
-    levers = rng.normal(size=(_SAMPLES, 3))
-    gram = gram_matrices(arm.chain, np.eye(3), q, levers, 6)
-    tool = float(abs(np.sqrt(np.abs(np.linalg.det(gram))) - closed).max())
+    cases = [{"omega": w, "J": J} for w, J in zip(closed, arm.jacobian(q), strict=True)]
+    gram = gram_matrices(arm.chain, np.eye(3), q, rng.normal(size=(_SAMPLES, 3)), 6)
+    with_tool = np.sqrt(np.abs(np.linalg.det(gram)))
     turned = q + rng.uniform(-np.pi, np.pi, q.shape) * [1, 0, 0, 1, 0, 1]
-    others = float(abs(arm.manipulability(turned) - closed).max())
     return Result(
         obtained={
-            "closed_form": difference,
-            "tool": tool,
-            "axes_1_4_6": others,
+            "closed_form": worst(printed_text("pan.eq11"), cases),
+            "tool": float(abs(with_tool - closed).max()),
+            "axes_1_4_6": float(abs(arm.manipulability(turned) - closed).max()),
             "largest": float(closed.max()),
         },
         caption=caption("eq11"),

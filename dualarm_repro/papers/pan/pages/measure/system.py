@@ -49,13 +49,12 @@ def system_measure(assumed: Assumed) -> Result:
     gap = worst(printed_text("pan.eq16"), [*_cases(found)])
     powers = unit_powers(problem.job.arm) if gap < _SAME else {}
     best = best_by_unit(problem)
-    moved = float(np.linalg.norm(best["m"] - best["mm"]))
     return Result(
         obtained={
             "residual": gap,
             "one_unit": bool(np.ptp(powers["MMR"]) < _SAME) if powers else None,
             "powers": {name: [min(found), max(found)] for name, found in powers.items()},
-            "moved_by_unit": moved,
+            "moved_by_unit": float(np.linalg.norm(best["m"] - best["mm"])),
             "best_in_metres": best["m"].tolist(),
             "best_in_millimetres": best["mm"].tolist(),
         },
@@ -77,11 +76,13 @@ def three_ellipsoids(assumed: Assumed) -> Result:
     whole = cell_grams(cell, jobs.q, rows)[:, index]
     values, vectors = np.linalg.eigh(whole)
     extreme = vectors * np.sqrt(values)[:, np.newaxis]
-    fits = float(abs(np.sum(extreme * np.linalg.solve(whole, extreme), axis=1) - 1).max())
+    on_surface = np.sum(extreme * np.linalg.solve(whole, extreme), axis=1)
     grams = whole[:, :3, :3]
-    axes = np.sqrt(np.linalg.eigvalsh(grams))[:, ::-1]
     return Result(
-        obtained={"fits": fits, "semi_axes": axes.tolist()},
+        obtained={
+            "fits": float(abs(on_surface - 1).max()),
+            "semi_axes": np.sqrt(np.linalg.eigvalsh(grams))[:, ::-1].tolist(),
+        },
         caption=caption("fig03", robots=ROBOTS),
         alt="Three robots, each with a translucent ellipsoid at the point where it acts.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, grams=grams),

@@ -188,9 +188,11 @@ def unsteady(assumed: Assumed) -> Result:
     if not poor.fitness:
         return nothing_feasible("swing", "position")
     system = measures_at(problem, poor.position).system
-    swing = float(np.ptp(system) / system.max())
     return Result(
-        obtained={"swing": swing, "position": poor.position.tolist()},
+        obtained={
+            "swing": float(np.ptp(system) / system.max()),
+            "position": poor.position.tolist(),
+        },
         caption=caption(
             "claim_unstable_b", status=status_name(solved(problem.job, tuple(poor.position)))
         ),

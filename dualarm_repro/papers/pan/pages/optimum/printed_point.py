@@ -45,8 +45,6 @@ def printed_point(assumed: Assumed) -> Result:
     problem, printed = Problem.of(assumed), printed_optimum()
     best = optimum(problem)
     distance = float(np.linalg.norm(best.position - printed)) if best.fitness else None
-    lost = loss_at_print(problem)
-    at_print = solved(problem.job, tuple(printed))
     table = reading_table()
     near, far = (table[[f"{reading} {radius}" for reading in READINGS]] for radius in (_NEAR, _FAR))
     shares = far.set_axis([_LABELS[reading] for reading in READINGS], axis=1)
@@ -58,9 +56,9 @@ def printed_point(assumed: Assumed) -> Result:
         obtained={
             "C": best.position.tolist() if best.fitness else None,
             "distance": distance,
-            "loss": lost,
+            "loss": loss_at_print(problem),
             "fitness": best.fitness,
-            "printed_point_is": status_name(at_print),
+            "printed_point_is": status_name(solved(problem.job, tuple(printed))),
         },
         table=table.reset_index(),
         witnesses=witnesses,
@@ -70,11 +68,8 @@ def printed_point(assumed: Assumed) -> Result:
             **{"witnesses": witnesses, "searches": len(FIT.load())},
             sets=len(CONSISTENCY.load()) // len(READINGS),
         ),
-        alt=(
-            "Left: optima of all readings in two projections with the printed point and circles "
-            "around it. Right: share of optima near the printed point for each objective and "
-            "reading."
-        ),
+        alt="Left: optima of all readings in two projections with the printed point and circles "
+        "around it. Right: share of optima near the printed point for each objective and reading.",
         figure=lambda: readings_figure(_clouds(), printed, shares, (_NEAR, _FAR)),
         scene=lambda: job_scene_at(
             "The job at the printed position, joint limits left aside.", cell, unlimited, printed

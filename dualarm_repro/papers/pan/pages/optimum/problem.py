@@ -58,18 +58,15 @@ def problem(assumed: Assumed) -> Result:
     second = grid.points + 0.5 * SPACING
     values = placement(second[(second <= bounds[:, 1]).all(axis=1)])
     gap = _objective_gap(task, best)
-    better = int((values > best.fitness * (1 + 1e-9)).sum())
-    disagreements = constraint_disagreements(task, grid.status)
     edge = float(np.minimum(best.position - bounds[:, 0], bounds[:, 1] - best.position).min())
-    share = float((grid.fitness > 0).mean())
     return Result(
         obtained={
             "variables": list("xyz")[: len(best.position)],
             "objective_is_printed": gap < _SAME,
             "objective_gap": gap,
-            "disagreements": disagreements,
-            "better": better,
-            "feasible_share": share,
+            "disagreements": constraint_disagreements(task, grid.status),
+            "better": int((values > best.fitness * (1 + 1e-9)).sum()),
+            "feasible_share": float((grid.fitness > 0).mean()),
             "to_edge": edge,
             "optimum": best.position.tolist(),
             "fitness": best.fitness,
@@ -108,12 +105,12 @@ def constraints(assumed: Assumed) -> Result:
     if not reached:
         missing = dict.fromkeys(("separation", "joint_margin", "rank"))
         return Result(obtained=obtained | missing, caption=caption("claim_constraints"))
-    nearest, margin = _nearest_pairs(cell, jobs), float(np.degrees(joint_margin(cell, jobs)))
+    nearest = _nearest_pairs(cell, jobs)
     return Result(
         obtained=obtained
         | {
             "separation": float(nearest.iloc[0]),
-            "joint_margin": margin,
+            "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "rank": smallest_rank(cell, jobs),
             "separations": nearest.to_dict(),
         },
