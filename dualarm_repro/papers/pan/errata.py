@@ -84,13 +84,8 @@ def beta_cancels() -> Proof:
     text = printed_text("pan.eq16").split("=")[-1]
 
     def measure(common: sp.Expr) -> sp.Expr:
-        return in_symbols(
-            text,
-            beta_1=(common / V1 + common / V2) / 2,
-            beta_2=common / V3,
-            M_tight=tight,
-            M_loose=loose,
-        )
+        beta = {"beta_1": (common / V1 + common / V2) / 2, "beta_2": common / V3}
+        return in_symbols(text, **beta, M_tight=tight, M_loose=loose)
 
     cancels = sp.simplify(measure(V) - measure(sp.Integer(1))) == 0
     free = V not in sp.simplify(measure(V)).free_symbols

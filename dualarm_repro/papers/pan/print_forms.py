@@ -15,12 +15,8 @@ from ...ledger import REGISTRY
 from ...ledger.formula import parse
 
 _RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
-    "<=": le,
-    ">=": ge,
-    "<": lt,
-    ">": gt,
-    "=": np.isclose,
-}
+    "<=": le, ">=": ge, "<": lt, ">": gt, "=": np.isclose,
+}  # fmt: skip
 _NO_VALUE = (DataFileError, ValueError, TypeError, IndexError, np.linalg.LinAlgError)
 
 

@@ -13,7 +13,7 @@ from ....ledger.assumptions import Chosen
 from ....welding import evolve
 from ....welding.genetic import Generation
 from ..document import SEED
-from ..reading import Genetic, Job, Measure, Problem
+from ..reading import PROBLEM, Genetic, Problem
 
 RUNS = 10
 #: Variants of the genetic algorithm: the declared one, another mutation, a coarse stall rule.
@@ -57,9 +57,7 @@ EVOLUTION = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen(
-        "pan", (*Job.names(), *Measure.names(), *Genetic.names(), "search_box"), ranges=True
-    ),
+    settings=Chosen("pan", (*PROBLEM, *Genetic.names(), "search_box"), ranges=True),
 )
 REGISTRY.keeps(EVOLUTION)
 

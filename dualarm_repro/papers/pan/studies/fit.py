@@ -11,7 +11,7 @@ import numpy as np
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ..document import SEED, printed_optimum
-from ..reading import Job, Measure, Problem, optimum, solved
+from ..reading import PROBLEM, Problem, optimum, solved
 
 STARTS, DRAWS, EVALUATIONS = 4, 48, 320
 _COARSE = 18  # seam points while searching
@@ -21,18 +21,9 @@ _SAME = 1e-9  # [m], what round-off can change
 #: The readings in which optima come nearest to print, see :mod:`.consistency`.
 READINGS = {"base_transform": "literal", "objective": "tight"}
 #: Assumptions that are changed.
-VARIED = (
-    "shoulder_height",
-    "radius_main",
-    "radius_branch",
-    "workpiece_length",
-    "gripper_length",
-    "grasp",
-    "flat_posture",
-    "torch_length",
-    "base_orientation",
-    "floor",
-)
+VARIED = ("shoulder_height", "radius_main", "radius_branch", "workpiece_length",
+          "gripper_length", "grasp", "flat_posture", "torch_length", "base_orientation",
+          "floor")  # fmt: skip
 
 
 def cells() -> list[dict[str, Any]]:
@@ -113,9 +104,7 @@ FIT = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen(
-        "pan", tuple(dict.fromkeys((*VARIED, *Job.names(), *Measure.names()))), ranges=True
-    ),
+    settings=Chosen("pan", tuple(dict.fromkeys((*VARIED, *PROBLEM))), ranges=True),
     nested=("values",),
 )
 REGISTRY.keeps(FIT)

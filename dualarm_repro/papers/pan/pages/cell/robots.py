@@ -48,17 +48,6 @@ def robot_data(assumed: Assumed) -> Result:
     """DH parameters and limits of the stand-in arm, with their evidence."""
     name, height = assumed["arm"], assumed["shoulder_height"]
     robot, arm = robot_table(name), stand_in(name, height)
-    table = pd.DataFrame(
-        {
-            "joint": [joint.name for joint in robot.joints],
-            "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
-            "a_m": [joint.a for joint in robot.joints],
-            "d_m": [height, *(joint.d for joint in robot.joints[1:])],
-            "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
-            "lower_deg": np.degrees(arm.lower),
-            "upper_deg": np.degrees(arm.upper),
-        }
-    )
     q = arm.random_configurations(20_000, np.random.default_rng(SEED))
     return Result(
         obtained={
@@ -66,7 +55,17 @@ def robot_data(assumed: Assumed) -> Result:
             "largest_measure": float(closed_form(arm, q).max()),
             "evidence": robot.evidence,
         },
-        table=table,
+        table=pd.DataFrame(
+            {
+                "joint": [joint.name for joint in robot.joints],
+                "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
+                "a_m": [joint.a for joint in robot.joints],
+                "d_m": [height, *(joint.d for joint in robot.joints[1:])],
+                "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
+                "lower_deg": np.degrees(arm.lower),
+                "upper_deg": np.degrees(arm.upper),
+            }
+        ),
         caption=caption("tab_none", title=robot.title),
     )
 
@@ -152,12 +151,11 @@ def matrix(assumed: Assumed) -> Result:
     reading = label_reading(printed_text("pan.eq_base", "label"))
     labelled = base_poses(printed[np.newaxis], reading)[0, :3, 3] + 0.0
     as_pose = _listed(base_poses(printed[np.newaxis], "inverted")[0, :3, 3], listed)
-    gap = float(np.linalg.norm(labelled - printed_bases()[0]))
     return Result(
         obtained={
             "matrix": used.tolist(),
             "labelled_is_listed": _listed(labelled, listed) if as_pose else None,
-            "as_labelled": gap,
+            "as_labelled": float(np.linalg.norm(labelled - printed_bases()[0])),
         },
         caption=caption("eq_base", listed=as_pose, reading=reading, labelled=labelled),
     )

@@ -55,12 +55,11 @@ def saddle_curve(assumed: Assumed) -> Result:
 def theta_range(assumed: Assumed) -> Result:
     """First value of theta and the end of the last step, of the seam that is used."""
     theta = saddle_seam(0.1, 0.06, round(assumed["seam_points"])).theta
-    count = len(theta)
     return Result(
         obtained={"theta": [float(theta[0]), float(theta[-1] + np.diff(theta).max())]},
         caption=(
-            f"The seam is closed and covered once, by {count} equally spaced points. The interval "
-            "is printed open, which would leave out the point at theta = 0."
+            f"The seam is closed and covered once, by {len(theta)} equally spaced points. The "
+            "interval is printed open, which would leave out the point at theta = 0."
         ),
     )
 
@@ -167,6 +166,5 @@ def _extent(points: np.ndarray) -> str:
 
 
 def _table(points: np.ndarray) -> pd.DataFrame:
-    return (
-        pd.DataFrame(points, columns=["x_m", "y_m", "z_m"]).rename_axis("seam_point").reset_index()
-    )
+    table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
+    return table.rename_axis("seam_point").reset_index()

@@ -188,9 +188,12 @@ def generalized_jacobian(assumed: Assumed) -> Result:
     J = np.vstack([pin.getJointJacobian(both, data, joint, frame) for joint in joints])
     printed = _size(REGISTRY.printed("pan.eq14"), 6, arm.nq)
     blocks = {"J_1": arm.jacobian(q1), "J_2": arm.jacobian(q2)}
-    difference = block_residual(printed_text("pan.eq14", "matrix"), blocks, J)
     return Result(
-        obtained={"difference": difference, "size_agrees": printed == J.shape, "size": printed},
+        obtained={
+            "difference": block_residual(printed_text("pan.eq14", "matrix"), blocks, J),
+            "size_agrees": printed == J.shape,
+            "size": printed,
+        },
         caption=caption("eq14", shape=J.shape),
     )
 

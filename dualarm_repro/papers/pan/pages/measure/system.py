@@ -12,7 +12,7 @@ from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result, Rol
 from .....ledger.captions import captions
 from .....view.ellipsoids import beta_figure
 from .....view.welding_cell import cell_figure
-from .....welding import ROBOTS, Measures
+from .....welding import ROBOTS
 from .....welding.ellipsoid import (
     intersection_volume,
     intersection_volume_monte_carlo,
@@ -46,7 +46,9 @@ def system_measure(assumed: Assumed) -> Result:
     """The printed weighted mean at one position, and what a change of the unit does to it."""
     problem, (_, jobs, _) = Problem.of(assumed), at_display(assumed)
     found = problem.placement().measures(jobs)
-    gap = worst(printed_text("pan.eq16"), [*_cases(found)])
+    names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
+    rows = np.stack(found)[:, 0].T.tolist()
+    gap = worst(printed_text("pan.eq16"), [dict(zip(names, r, strict=True)) for r in rows])
     powers = unit_powers(problem.job.arm) if gap < _SAME else {}
     best = best_by_unit(problem)
     return Result(
@@ -113,10 +115,9 @@ def weights(assumed: Assumed) -> Result:
     by_rule = tight / (tight + ratios[2])
     share = (used.beta_tight / (used.beta_tight + used.beta_loose))[0]
     gap = float(abs(share - by_rule).max())
-    sampled, error = intersection_volume_monte_carlo(
-        grams[:, 0], 20_000, np.random.default_rng(SEED)
-    )
-    exact = intersection_volume(grams[:, 0])
+    first, rng = grams[:, 0], np.random.default_rng(SEED)
+    sampled, error = intersection_volume_monte_carlo(first, 20_000, rng)
+    exact = intersection_volume(first)
     return Result(
         obtained={
             "follows_rule": gap < 1e-9,
@@ -166,11 +167,6 @@ def unit_powers(arm_name: str) -> dict[str, list[float]]:
         for name, entries in powers.items():
             entries.append(float(np.log(found[1][name] / found[0][name]) / np.log(_MILLI)))
     return powers
-
-
-def _cases(found: Measures) -> list[dict[str, float]]:
-    names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
-    return [dict(zip(names, map(float, row), strict=True)) for row in np.stack(found)[:, 0].T]
 
 
 def _volumes(grams: np.ndarray) -> np.ndarray:

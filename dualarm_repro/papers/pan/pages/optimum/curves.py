@@ -19,12 +19,12 @@ from ...reading import (
     at_optimum,
     job_scene_at,
     measures_at,
+    nothing_feasible,
     optimum,
     poor_position,
     solved,
     status_name,
 )
-from .problem import nothing_feasible
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
@@ -76,7 +76,7 @@ def joint_curves(assumed: Assumed) -> Result:
     """Joint angles along the seam at the optimum."""
     cell, jobs, centre, _ = at_optimum(assumed)
     q = jobs.q[0]
-    closing = q[:, -1] + np.round((q[:, 0] - q[:, -1]) / (2 * np.pi)) * 2 * np.pi
+    turns = np.round((q[:, 0] - q[:, -1]) / (2 * np.pi))
     span = np.degrees(np.ptp(q, axis=1))
     columns = {
         f"{name} q{j + 1}": np.degrees(q[k, :, j])
@@ -86,7 +86,7 @@ def joint_curves(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "carried": _carried(cell, jobs, centre),
-            "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
+            "turns": float(abs(turns).max()),
             "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "span_deg": span.tolist(),
             "branches": jobs.branch[0].tolist(),
@@ -207,12 +207,9 @@ def curve_table(w: np.ndarray, system: np.ndarray, axis: str) -> pd.DataFrame:
 
 def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
     """Largest difference of the flange poses by forward kinematics to those of the job."""
-    worst = 0.0
-    for robot in range(len(ROBOTS)):
-        wanted = cell.flanges[robot].copy()
-        wanted[:, :3, 3] += centre
-        worst = max(worst, float(abs(flange_poses(cell, jobs, robot) - wanted).max()))
-    return worst
+    wanted, robots = cell.flanges.copy(), range(len(ROBOTS))
+    wanted[..., :3, 3] += centre
+    return float(abs([flange_poses(cell, jobs, robot) for robot in robots] - wanted).max())
 
 
 def _recomputed(cell: Cell, jobs: Jobs) -> float:

@@ -103,11 +103,11 @@ def reading_table() -> pd.DataFrame:
     Columns ``<reading> 0.1`` and ``<reading> 0.15`` are shares among the sets with a feasible
     position, ``<reading> upper`` the upper end of the 95 % interval of the latter.
     """
-    printed, rows = printed_optimum(), {}
+    table, printed, rows = CONSISTENCY.load(), printed_optimum(), {}
     for name in OBJECTIVES:
         row = {}
         for reading in READINGS:
-            distance = np.linalg.norm(_optima(reading, name) - printed, axis=1)
+            distance = np.linalg.norm(_optima(table, reading, name) - printed, axis=1)
             for radius in (_NEAR, _FAR):
                 row[f"{reading} {radius}"] = float((distance <= radius).mean())
             row[f"{reading} upper"] = Share.of((distance <= _FAR).sum(), len(distance)).high
@@ -115,17 +115,17 @@ def reading_table() -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("objective")
 
 
-def _optima(reading: str, objective: str) -> np.ndarray:
+def _optima(table: pd.DataFrame, reading: str, objective: str) -> np.ndarray:
     """Optima (N, 3) of the sets with a feasible position, in one reading of the bases."""
-    table = CONSISTENCY.load()
     part = table[table["base_transform"] == reading]
     return part[[f"{objective} {axis}" for axis in "xyz"]].dropna().to_numpy()
 
 
 def _clouds() -> list[tuple[str, np.ndarray]]:
     """Optima of all objectives, one cloud for each reading of the bases."""
+    table = CONSISTENCY.load()
     return [
-        (_LABELS[reading], np.concatenate([_optima(reading, name) for name in OBJECTIVES]))
+        (_LABELS[reading], np.concatenate([_optima(table, reading, name) for name in OBJECTIVES]))
         for reading in READINGS
     ]
 

@@ -18,7 +18,16 @@ from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Sta
 from .....welding.motion import smallest_rank
 from ...document import printed_optimum
 from ...print_forms import holds, printed_text, value
-from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, surveyed
+from ...reading import (
+    SPACING,
+    Problem,
+    denser,
+    measures_at,
+    nothing_feasible,
+    optimum,
+    solved,
+    surveyed,
+)
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
@@ -198,11 +207,3 @@ def _nearest_pairs(cell: Cell, jobs: Jobs) -> pd.Series:
     pairs = separation.per_pair(jobs.q, jobs.centres)[0]
     owners = pd.Series(pairs, index=[" - ".join(pair) for pair in separation.owners])
     return owners.groupby(level=0).min().sort_values()
-
-
-def nothing_feasible(*keys: str) -> Result:
-    """The outcome in a region without a feasible position."""
-    return Result(
-        obtained=dict.fromkeys(keys),
-        caption="No position of the region is feasible, so the problem has no solution.",
-    )

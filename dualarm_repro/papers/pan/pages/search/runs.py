@@ -15,7 +15,7 @@ from .....ledger.captions import captions
 from .....view.search_plots import best_individual_figure, history_figure, optimisers_figure
 from .....welding import Evolution
 from ...document import printed_optimum
-from ...reading import DENSER, Genetic, Problem, denser, one_run, optimum, solved
+from ...reading import DENSER, Genetic, Problem, denser, nothing_feasible, one_run, optimum, solved
 from ...studies.evolution import Runs, stored_runs
 from ...studies.optimisers import BUDGET, OPTIMISERS, TRUTH
 
@@ -23,6 +23,7 @@ checks = partial(REGISTRY.checks, page="pan/search")
 caption = captions(__file__)
 #: Draws of the assumptions for items that need a genetic run each.
 _DRAWS = 16
+_NOTHING = "No individual of the run is feasible, so there is nothing to judge."
 
 
 @checks(
@@ -99,8 +100,7 @@ def distance_curve(assumed: Assumed) -> Result:
     """Mean distance between individuals over the generations."""
     runs = stored_runs(round(assumed["ga_seeds"]))
     distance = runs.histories["distance"]
-    box = Problem.of(REGISTRY.nominal("pan")).box
-    diagonal = float(np.linalg.norm(np.diff(box, axis=1)))
+    diagonal = np.linalg.norm(np.diff(Problem.of(REGISTRY.nominal("pan")).box, axis=1))
     return Result(
         obtained={
             "outside": float(np.maximum(distance - diagonal, 0.0).max()),
@@ -108,10 +108,7 @@ def distance_curve(assumed: Assumed) -> Result:
             "last": float(np.median(distance[:, -1])),
         },
         table=_history_table(runs, ("distance",)),
-        caption=(
-            f"Mean distance between the individuals of {len(distance)} runs: from "
-            f"{np.median(distance[:, 0]):.2f} m to {np.median(distance[:, -1]):.3f} m (medians)."
-        ),
+        caption=caption("fig15", runs=len(distance)),
         alt="A falling curve of the mean distance against the generation.",
         figure=lambda: history_figure({"mean distance": distance}, "distance [m]"),
     )
@@ -135,7 +132,7 @@ def fitness_converges(assumed: Assumed) -> Result:
     run, truth = run_of(assumed), optimum(Problem.of(assumed))
     best = np.array([generation.best for generation in run.history])
     if not run.found:
-        return _nothing_feasible("late_gain", "gap")
+        return nothing_feasible("late_gain", "gap", told=_NOTHING)
     return Result(
         obtained={
             "late_gain": float(1 - best[3 * len(best) // 4] / best[-1]),
@@ -182,7 +179,7 @@ def largest_measure(assumed: Assumed) -> Result:
     """One run against a refined grid, and its result on a denser seam."""
     run, problem = run_of(assumed), Problem.of(assumed)
     if not run.found:
-        return _nothing_feasible("gap", "violated")
+        return nothing_feasible("gap", "violated", told=_NOTHING)
     truth = max(optimum(problem).fitness, run.fitness)
     peers, told = _peers(truth)
     return Result(
@@ -211,13 +208,6 @@ def _peers(truth: float) -> tuple[pd.DataFrame | None, dict[str, int]]:
     hits = peers.assign(hit=peers["fitness"] >= 0.999 * stored)
     within = hits.groupby("optimiser", sort=False)["hit"].sum()
     return peers, {str(name): int(count) for name, count in within.items()}
-
-
-def _nothing_feasible(*keys: str) -> Result:
-    return Result(
-        obtained=dict.fromkeys(keys),
-        caption="No individual of the run is feasible, so there is nothing to judge.",
-    )
 
 
 def _history_table(runs: Runs, names: tuple[str, ...]) -> pd.DataFrame:
