@@ -20,10 +20,7 @@ def arm_names() -> list[str]:
 
 
 def load_arm(
-    name_or_path: str | Path,
-    *,
-    flange: str | None = None,
-    lock: Mapping[str, float] | None = None,
+    name_or_path: str | Path, *, flange: str | None = None, lock: Mapping[str, float] | None = None
 ) -> Arm:
     """Load an arm by its name in ``data/robots``, or from a robot YAML or URDF file.
 
@@ -73,11 +70,7 @@ def load_arm(
 
 
 def _from_urdf_robot(
-    name: str,
-    path: Path,
-    robot: URDFRobot,
-    flange: str | None,
-    lock: Mapping[str, float] | None,
+    name: str, path: Path, robot: URDFRobot, flange: str | None, lock: Mapping[str, float] | None
 ) -> Arm:
     fixed = {joint: float(angle) for joint, angle in robot.lock.items()} if lock is None else lock
     model, shapes = (

@@ -11,13 +11,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    PlainSerializer,
-    TypeAdapter,
-    model_validator,
-)
+from pydantic import BeforeValidator, Field, PlainSerializer, TypeAdapter, model_validator
 
 from ..datafiles import StrictModel, Text, read_yaml
 from ..errors import DataFileError

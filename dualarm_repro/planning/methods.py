@@ -57,9 +57,7 @@ class Method(Generic[_Settings]):
         arms = {placed.name: placed for placed in given.scene.arms}
         tasks = {
             arm: Task(
-                task.start,
-                task.goal,
-                self.adapted(given.settings or self.default(arms[arm].arm)),
+                task.start, task.goal, self.adapted(given.settings or self.default(arms[arm].arm))
             )
             for arm, task in given.tasks.items()
         }

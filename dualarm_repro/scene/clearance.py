@@ -91,11 +91,7 @@ def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
 
 
 def _fill(
-    scene: Scene,
-    q: np.ndarray,
-    time: ArrayLike,
-    distance: np.ndarray,
-    witness: np.ndarray,
+    scene: Scene, q: np.ndarray, time: ArrayLike, distance: np.ndarray, witness: np.ndarray
 ) -> None:
     time = _times(time, len(q))
     bodies, rows = scene.bodies, scene.pairs.rows

@@ -61,8 +61,7 @@ class NetworkSettings(Settings):
     )
     feed_forward: FeedForward = FeedForward.ALL
     capped: bool = Field(
-        default=True,
-        description="a solver of fixed step limits the gain to 1 / (step Psi'(0))",
+        default=True, description="a solver of fixed step limits the gain to 1 / (step Psi'(0))"
     )
 
     def numbers(self, dt: float | None = None) -> NetworkNumbers:

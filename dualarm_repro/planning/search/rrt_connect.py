@@ -38,11 +38,7 @@ class SampledPlan:
 
 
 def plan_rrt_connect(
-    scene: Scene,
-    start: ArrayLike,
-    goal: ArrayLike,
-    seed: int,
-    max_checks: int = 20_000,
+    scene: Scene, start: ArrayLike, goal: ArrayLike, seed: int, max_checks: int = 20_000
 ) -> SampledPlan:
     """Path of all controlled arms of a scene without contact, from ``start`` to ``goal`` [rad].
 
