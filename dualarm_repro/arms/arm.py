@@ -153,6 +153,12 @@ class Arm:
             return kernels.manipulabilities(self.chain, q)
         return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
 
+    def limits(self, enforced: bool = True) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper limits of the joints (nq,) [rad], infinite unless ``enforced``."""
+        if enforced:
+            return self.lower, self.upper
+        return np.full(self.nq, -np.inf), np.full(self.nq, np.inf)
+
     def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
         """Whether lower - tolerance <= q <= upper + tolerance [rad], bool or (N,) of bool."""
         q = self.configurations(q)
@@ -285,9 +291,7 @@ class Arm:
         near = 0.5 * (self.lower + self.upper)
         if reference is not None:
             near = self.configurations(reference)
-        unlimited = np.full(self.nq, np.inf)
-        lower, upper = (self.lower, self.upper) if within_limits else (-unlimited, unlimited)
-        return inverse_kinematics(geometry, poses, near, lower, upper)
+        return inverse_kinematics(geometry, poses, near, *self.limits(within_limits))
 
     def _dh_robot(self, wanted: str) -> DHRobot:
         if self._robot is None:

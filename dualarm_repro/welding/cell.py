@@ -93,9 +93,7 @@ class Cell:
 
     def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper joint limits of a robot (6,) [rad]."""
-        if self.joint_limits:
-            return self.arms[robot].lower, self.arms[robot].upper
-        return np.full(6, -np.inf), np.full(6, np.inf)
+        return self.arms[robot].limits(self.joint_limits)
 
     def unlimited(self) -> Cell:
         """The same cell without joint limits and without a threshold of singularity."""

@@ -72,8 +72,8 @@ def descend(made: PlanningProblem) -> Record:
         rows.append(_terms(made, q, step, state.active))
         if reason is not None:
             break
-        field, update = made.field_in(state), made.settings.update
-        path[step + 1] = next_configuration(field, q, step, update, *made.limits)
+        at = q, step, made.settings.update, made.limits
+        path[step + 1] = next_configuration(made.field_in(state), *at)
         step += 1
     attractive, repulsive, virtual, clearance, active = map(np.array, zip(*rows, strict=True))
     return Record(
