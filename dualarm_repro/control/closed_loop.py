@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,8 +27,29 @@ class Ending(StrEnum):
     DIVERGED = "the network diverged"
 
 
+class Run(NamedTuple):
+    """Where a loop of N steps writes what :class:`.motion.Motion` holds, see there."""
+
+    q: np.ndarray
+    x: np.ndarray
+    error: np.ndarray
+    distance: np.ndarray
+    rows: np.ndarray
+    slack: np.ndarray
+
+
 DONE, DIVERGED = code(Ending.DONE), code(Ending.DIVERGED)
 _NO_SOLUTION, _UNCERTIFIED = code(Ending.NO_SOLUTION), code(Ending.UNCERTIFIED)
+
+
+@kernel
+def started(q0, arms, steps):
+    """A :class:`Run` at its start, with rows and slack zero."""
+    n = len(q0)
+    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
+    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
+    q[0] = q0
+    return Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
 
 
 @kernel
@@ -56,44 +78,31 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
     -------
     status, taken : int
         Number of the :class:`Ending`, and after how many steps.
-    q : (steps + 1, n)
-    x : (steps, n)
-    error : (steps + 1, A)
-        Distance of each tip from its path [m].
-    distance : (steps + 1,)
-        Smallest surface distance [m].
-    rows : (steps,)
-    slack : (steps,)
-        Norm of what the task gave up [m/s].
+    run : Run
     """
-    n, arms = len(q0), len(arrays.base)
-    buffers = make_buffers(arrays, numbers)
+    arms, status = len(arrays.base), DONE
+    buffers, run = make_buffers(arrays, numbers), started(q0, arms, steps)
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
-    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
-    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
-    rows, slack = np.zeros(steps, np.int64), np.zeros(steps)
-    q[0] = q0
-    status = DONE
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
-        count = sense(arrays, numbers, q[step], reading, buffers)
+        count = sense(arrays, numbers, run.q[step], reading, buffers)
         follow(circle, step * dt, position, velocity)
-        distance[step] = observe(buffers, position, error[step])
+        run.distance[step] = observe(buffers, position, run.error[step])
         if step == steps:
             break
-        program = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
+        program = state(arrays, numbers, run.q[step], q0, position, velocity, count, buffers)
         found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)
-            slack[step] = np.sqrt((s * s).sum())
+            run.slack[step] = np.sqrt((s * s).sum())
             program = with_task(program, program.b - s)
         if found != SOLVED:
             status = _NO_SOLUTION
         elif residual(program, v, y, z, w) > CERTIFIED:
             status = _UNCERTIFIED
         if status != DONE:
-            return status, step, q, x, error, distance, rows, slack
-        rows[step] = len(program.h)
-        x[step] = v
-        q[step + 1] = q[step] + dt * v
-    return status, steps, q, x, error, distance, rows, slack
+            return status, step, run
+        run.rows[step] = len(program.h)
+        run.x[step] = v
+        run.q[step + 1] = run.q[step] + dt * v
+    return status, steps, run

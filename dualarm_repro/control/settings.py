@@ -114,14 +114,6 @@ class ControllerSettings(Settings):
             raise ValueError(f"more than inner, {inner:g} m")
         return outer
 
-    @property
-    def closing_speed(self) -> float:
-        """Approach that the damper allows where a pair enters, k (d1 - d2) [m/s].
-
-        Faster approach is braked at once, so that the joint velocity jumps there.
-        """
-        return self.damper_gain * (self.outer - self.inner)
-
     def numbers(self) -> ControllerNumbers:
         """For the kernels."""
         return ControllerNumbers(
