@@ -78,6 +78,13 @@ def link_frames(chain, base, q):
     return frames
 
 
+def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:
+    """The ends (N, C, 2, 3) that :func:`place_cores` fills."""
+    ends = np.empty((len(frames), *local.shape))
+    place_cores(frames, joint, local, ends)
+    return ends
+
+
 @kernel
 def place_cores(frames, joint, local, ends):
     """ends (N, C, 2, 3) = F_joint local, for frames (N, J, 3, 4) and local cores (C, 2, 3)."""
