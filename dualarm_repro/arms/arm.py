@@ -10,12 +10,12 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from ..errors import ConfigurationError, UnsupportedArmError
+from ..errors import UnsupportedArmError
 from . import dh, kernels
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
-from .poses import check_poses
+from .poses import check_configurations, check_poses
 from .robot_file import DHRobot
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
@@ -266,16 +266,7 @@ class Arm:
             Wrong shape, NaN or infinity.
         """
         expected = f"{self.nq} finite numbers [rad], or rows of {self.nq}"
-        try:
-            array = np.asarray(q, dtype=float)
-        except (TypeError, ValueError):
-            raise ConfigurationError(f"arm {self.name}", "q", q, expected) from None
-        if array.ndim not in (1, 2) or array.shape[-1] != self.nq:
-            raise ConfigurationError(f"arm {self.name}", "shape of q", array.shape, expected)
-        if not np.isfinite(array).all():
-            wrong = array[~np.isfinite(array)][0]
-            raise ConfigurationError(f"arm {self.name}", "q", float(wrong), expected)
-        return array
+        return check_configurations(f"arm {self.name}", q, self.nq, expected)
 
     def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
         return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]

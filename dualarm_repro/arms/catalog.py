@@ -10,7 +10,7 @@ from example_robot_data import getModelPath
 from ..datafiles import data_path
 from ..errors import DataFileError, InputError, UnknownNameError
 from .arm import Arm
-from .robot_file import DHRobot, MirrorRobot, URDFRobot, load_robot_file
+from .robot_file import DHRobot, MirrorRobot, URDFRobot, changed, load_robot_file
 from .urdf import URDF
 
 
@@ -65,7 +65,7 @@ def load_arm(
         original = load_robot_file(path.with_name(f"{robot.of}.yaml"))
         if not isinstance(original, DHRobot):
             raise DataFileError(path, "of", robot.of, "the name of an arm given by a DH table")
-        return Arm.from_dh(name, original.mirrored().model_copy(update={"title": robot.title}))
+        return Arm.from_dh(name, changed(original.mirrored(), title=robot.title))
     return Arm.from_dh(name, robot)
 
 

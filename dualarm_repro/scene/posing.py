@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
+from ..arms.capsules import capsule_ends
 from ..kernel import kernel
 
 
@@ -34,8 +35,7 @@ def links_of(arm: Arm) -> Links:
     for row, shape in zip(local, shapes, strict=True):
         frame = frames[shape.parentJoint]
         placement = data.oMi[shape.parentJoint] * shape.placement
-        for k, sign in enumerate((-1.0, 1.0)):
-            end = placement.act(np.array([0.0, 0.0, sign * shape.geometry.halfLength]))
+        for k, end in enumerate(capsule_ends(placement, shape.geometry)):
             row[k] = frame[:, :3].T @ (end - frame[:, 3])
     return Links(
         tuple(shape.name for shape in shapes),
