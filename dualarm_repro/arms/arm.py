@@ -58,14 +58,8 @@ class Arm:
     @classmethod
     def from_dh(cls, name: str, robot: DHRobot) -> Arm:
         """Arm of a DH table."""
-        return cls(
-            name,
-            robot.title,
-            build_model(robot, name),
-            FLANGE,
-            partial(capsule_geometry, robot.capsules),
-            robot,
-        )
+        capsules = partial(capsule_geometry, robot.capsules)
+        return cls(name, robot.title, build_model(robot, name), FLANGE, capsules, robot)
 
     def __repr__(self) -> str:
         return f"<Arm {self.name}: {self.nq} joints, {self.title}>"

@@ -18,12 +18,11 @@ ROUNDING = 1e-4  # a capsule that sticks out of another one by less [m] counts a
 
 def capsule_geometry(capsules: Iterable[Capsule]) -> pin.GeometryModel:
     """One coal capsule per entry, in the joint frame it names; adds no collision pair."""
-    return geometry_of(
-        LinkCapsule(
-            f"capsule_{k}_joint_{c.joint}", c.joint, *map(np.array, (c.start, c.end)), c.radius
-        )
-        for k, c in enumerate(capsules)
-    )
+    made = []
+    for k, one in enumerate(capsules):
+        name, ends = f"capsule_{k}_joint_{one.joint}", (np.array(one.start), np.array(one.end))
+        made.append(LinkCapsule(name, one.joint, *ends, one.radius))
+    return geometry_of(made)
 
 
 def segment_capsule(

@@ -125,10 +125,8 @@ def assemble(
     towards = bases[WELDER, :2, 3]
     tips = np.einsum("nij,nj->ni", rotations, seam.points)
     bisector = np.einsum("nij,nj->ni", rotations, seam.bisector)
-    turned, size = (
-        homogeneous(rotations, np.zeros(3)),
-        (0.5 * workpiece.length, workpiece.radius_main),
-    )
+    turned = homogeneous(rotations, np.zeros(3))
+    size = 0.5 * workpiece.length, workpiece.radius_main
     sides = (tuple(base[:2, 3]) for base in bases[:WELDER])
     grasps = [grasp_pose(tools.grasp, side, *size, tools.gripper_length) for side in sides]
     axes = torch_axes(tools.torch_axis, bisector, towards)

@@ -33,12 +33,8 @@ def query_operations(
         direction = rng.normal(size=3)
         point = tuple(triangles.mean(axis=(0, 1)) + _AWAY * direction / np.linalg.norm(direction))
         hulls.append(cost(point_hull, point, planes, triangles).operations)
-        capsules.append(
-            sum(
-                cost(point_capsule, point, tuple(a), tuple(b - a), float(radius)).operations
-                for (a, b), radius in zip(cores, radii, strict=True)
-            )
-        )
+        links = [(tuple(a), tuple(b - a), float(r)) for (a, b), r in zip(cores, radii, strict=True)]
+        capsules.append(sum(cost(point_capsule, point, *link).operations for link in links))
     return float(np.mean(hulls)), float(np.mean(capsules))
 
 

@@ -75,9 +75,10 @@ def descend(made: PlanningProblem) -> Record:
         at = q, step, made.settings.update, made.limits
         path[step + 1] = next_configuration(made.field_in(state), *at)
         step += 1
-    terms = map(np.array, zip(*rows, strict=True))
+    attractive, repulsive, virtual, clearance, active = map(np.array, zip(*rows, strict=True))
+    looks = path[: step + 1].copy(), attractive, repulsive, virtual, clearance, active
     counts = state.activations, state.arrivals
-    return Record(path[: step + 1].copy(), *terms, reason, *counts, perf_counter() - began)
+    return Record(*looks, reason, *counts, perf_counter() - began)
 
 
 def _terms(made: PlanningProblem, q: np.ndarray, step: int, active: bool) -> tuple[ArrayLike, ...]:

@@ -84,7 +84,7 @@ def descend_compiled(made: PlanningProblem) -> Record:
     began = perf_counter()
     rows = empty_rows(made)
     end = run(field_of(made), rules_of(made), made.switch_rules, made.start, rows)
-    kept = (part[: end.steps + 1].copy() for part in rows[: Rows._fields.index("potential")])
+    kept = Rows(*(part[: end.steps + 1].copy() for part in rows))[:-1]  # without the potential
     counts = end.activations, end.arrivals
     return Record(*kept, list(StopReason)[end.reason], *counts, perf_counter() - began)
 

@@ -134,14 +134,9 @@ class _Half:
             self.flips += 1
             self._flip_distance = self.clearance[-1]
         self._direction = direction
+        rule, influence = (code(step.rule), step.length), made.settings.repulsion.influence
         length = step_length(
-            code(step.rule),
-            step.length,
-            step.floor,
-            step.cap,
-            made.weights,
-            self.clearance[-1],
-            made.settings.repulsion.influence,
+            *rule, step.floor, step.cap, made.weights, self.clearance[-1], influence
         )
         self.path.append(np.clip(self.path[-1] + length * direction, *made.limits))
 
