@@ -55,16 +55,6 @@ def select_pairs(arrays, selection, outer, distance, chosen):
 
 
 @kernel
-def _against(normal, columns, row):
-    """Write -n . D (n,), D the ``columns`` (3, n)."""
-    for j in range(len(row)):
-        total = 0.0
-        for r in range(3):
-            total -= normal[r] * columns[r, j]
-        row[j] = total
-
-
-@kernel
 def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
     """Write the rows of the chosen pairs; returns how many rows."""
     n = G.shape[1]
@@ -85,14 +75,22 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
         )
         form = numbers.form
         if form == _PAIR_NORMAL:
-            _against(normal, columns[0] + columns[1], G[row])
+            for j in range(n):
+                total = 0.0
+                for r in range(3):
+                    total -= normal[r] * (columns[0, r, j] + columns[1, r, j])
+                G[row, j] = total
             h[row] = beta
             row += 1
         elif form == _ARM_NORMAL:
             for side in range(2):
                 if still[side]:  # a fixed base can do nothing about the distance
                     continue
-                _against(normal, columns[side], G[row])
+                for j in range(n):
+                    total = 0.0
+                    for r in range(3):
+                        total -= normal[r] * columns[side, r, j]
+                    G[row, j] = total
                 h[row] = beta
                 row += 1
         elif form == _ARM_AXES:

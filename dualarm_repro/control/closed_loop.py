@@ -43,16 +43,6 @@ _NO_SOLUTION, _UNCERTIFIED = code(Ending.NO_SOLUTION), code(Ending.UNCERTIFIED)
 
 
 @kernel
-def started(q0, arms, steps):
-    """A :class:`Run` at its start, with rows and slack zero."""
-    n = len(q0)
-    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
-    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
-    q[0] = q0
-    return Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
-
-
-@kernel
 def observe(buffers, position, error):
     """Write the distance of each tip from its path; returns the smallest surface distance."""
     for arm in range(len(position)):
@@ -80,17 +70,21 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
         Number of the :class:`Ending`, and after how many steps.
     run : Run
     """
-    arms, status = len(arrays.base), DONE
-    buffers, run = make_buffers(arrays, numbers), started(q0, arms, steps)
+    n, arms, status = len(q0), len(arrays.base), DONE
+    buffers = make_buffers(arrays, numbers)
+    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
+    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
+    q[0] = q0
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
-        count = sense(arrays, numbers, run.q[step], reading, buffers)
+        count = sense(arrays, numbers, q[step], reading, buffers)
         follow(circle, step * dt, position, velocity)
-        run.distance[step] = observe(buffers, position, run.error[step])
+        distance[step] = observe(buffers, position, error[step])
         if step == steps:
             break
-        program = state(arrays, numbers, run.q[step], q0, position, velocity, count, buffers)
+        program = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
         found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)
@@ -103,6 +97,6 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
         if status != DONE:
             return status, step, run
         run.rows[step] = len(program.h)
-        run.x[step] = v
-        run.q[step + 1] = run.q[step] + dt * v
+        x[step] = v
+        q[step + 1] = q[step] + dt * v
     return status, steps, run

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..arms.kernels import Chain
 from ..kernel import kernel
-from ..scene.posing import link_frames, place_cores
+from ..scene.posing import link_frames
 from ..scene.segments import segment_segment
-from ..scene.vectors import cross, minus, out_of_frame, vector
+from ..scene.vectors import cross, minus, vector
 
 
 @kernel
@@ -32,8 +32,9 @@ def joint_frames(arrays, q, frames, tips):
         chain = Chain(arrays.rotation[row:flange], arrays.translation[row:flange])
         angles = q[first:last].reshape(1, -1)
         frames[row : flange + 1] = link_frames(chain, arrays.base[arm], angles)[0]
-        tip = out_of_frame(frames[flange], vector(arrays.translation[flange]))
-        tips[arm, 0], tips[arm, 1], tips[arm, 2] = tip
+        F, t = frames[flange], arrays.translation[flange]
+        for r in range(3):
+            tips[arm, r] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
 
 
 @kernel
@@ -66,9 +67,13 @@ def core_distances(arrays, frames, distance, witness):
     witness : (P, 3, 3), output
         Point on core a, point on core b, unit normal.
     """
-    placed = np.empty((1, len(arrays.radius), 2, 3))
-    place_cores(frames[np.newaxis], arrays.frame, arrays.local, placed)
-    cores = placed[0]
+    cores = np.empty((len(arrays.radius), 2, 3))
+    for c in range(len(cores)):
+        F = frames[arrays.frame[c]]
+        for end in range(2):
+            x, y, z = vector(arrays.local[c, end])
+            for r in range(3):
+                cores[c, end, r] = F[r, 0] * x + F[r, 1] * y + F[r, 2] * z + F[r, 3]
     for k in range(len(distance)):
         i, j = arrays.pairs[k]
         a, b = vector(cores[i, 0]), vector(cores[j, 0])

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ...kernel import kernel
 from ..assembly import make_buffers
 from ..circle import Circles, follow
-from ..closed_loop import DIVERGED, DONE, observe, started
+from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
 from ..settings import ControllerSettings
 from ..simulate import UNDISTURBED, checked_run, truncated
@@ -38,24 +38,28 @@ def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, noise, dist
     As :func:`..closed_loop.run_exact`, ``slack`` being zero.
     """
     n, arms = len(q0), len(arrays.base)
-    B, run = make_buffers(arrays, numbers), started(q0, arms, steps)
+    B = make_buffers(arrays, numbers)
+    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
+    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
+    q[0] = q0
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     y, rate = y0.copy(), np.empty(len(y0))
     for step in range(steps + 1):
         t = step * dt
         reading = noise[step] if step < len(noise) else np.empty(0)
         pushed = disturbance[step] if step < len(disturbance) else np.zeros(len(y))
-        q = run.q[step]
-        rows = state_rate(arrays, numbers, network, circle, q, q0, t, y, reading, pushed, B, rate)
+        at = q[step], q0, t, y, reading, pushed
+        rows = state_rate(arrays, numbers, network, circle, *at, B, rate)
         follow(circle, t, position, velocity)
-        run.distance[step] = observe(B, position, run.error[step])
+        distance[step] = observe(B, position, error[step])
         if step == steps:
             break
         run.rows[step] = rows
-        run.x[step] = y[:n]
+        x[step] = y[:n]
         if not np.abs(y[:n]).max() < FASTEST:
             return DIVERGED, step, run
-        run.q[step + 1] = q + dt * y[:n]
+        q[step + 1] = q[step] + dt * y[:n]
         y += dt * rate
     return DONE, steps, run
 

@@ -14,19 +14,14 @@ from .penalty import penalty
 
 
 @kernel
-def _penalty(network, g):
-    return penalty(network.penalty, network.factor, network.sharpness, g)
-
-
-@kernel
 def optimality(network, program, y, F):
     """F(y) (n + m,)."""
     target, A, b, G, h, lower, upper = program
     n, m = len(target), len(b)
     for i in range(n):
         F[i] = y[i] - target[i]
-        F[i] += _penalty(network, y[i] - upper[i])[1]
-        F[i] -= _penalty(network, lower[i] - y[i])[1]
+        F[i] += penalty(network.penalty, network.factor, network.sharpness, y[i] - upper[i])[1]
+        F[i] -= penalty(network.penalty, network.factor, network.sharpness, lower[i] - y[i])[1]
     for k in range(m):
         total = -b[k]
         for i in range(n):
@@ -37,7 +32,7 @@ def optimality(network, program, y, F):
         total = -h[k]
         for i in range(n):
             total += G[k, i] * y[i]
-        push = _penalty(network, total)[1]
+        push = penalty(network.penalty, network.factor, network.sharpness, total)[1]
         if push != 0.0:
             for i in range(n):
                 F[i] += G[k, i] * push
@@ -52,15 +47,19 @@ def penalised_hessian(network, program, y, H):
     for i in range(n):
         H[i, i] = 1.0
         if network.hessian:
-            H[i, i] += _penalty(network, y[i] - upper[i])[2]
-            H[i, i] += _penalty(network, lower[i] - y[i])[2]
+            H[i, i] += penalty(network.penalty, network.factor, network.sharpness, y[i] - upper[i])[
+                2
+            ]
+            H[i, i] += penalty(network.penalty, network.factor, network.sharpness, lower[i] - y[i])[
+                2
+            ]
     if not network.hessian:
         return
     for k in range(len(h)):
         total = -h[k]
         for i in range(n):
             total += G[k, i] * y[i]
-        bend = _penalty(network, total)[2]
+        bend = penalty(network.penalty, network.factor, network.sharpness, total)[2]
         if bend != 0.0:
             for i in range(n):
                 scaled = bend * G[k, i]

@@ -18,7 +18,7 @@ from ...errors import InputError
 from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
-from ..closed_loop import DIVERGED, DONE, observe, started
+from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
 from ..settings import ControllerSettings, RowForm
 from ..simulate import UNDISTURBED, checked_run, truncated
@@ -92,17 +92,21 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
     """
     n, arms = len(q0), len(arrays.base)
     m = 3 * arms
-    B, run = make_buffers(arrays, numbers), started(q0, arms, steps)
+    B = make_buffers(arrays, numbers)
+    q, x = np.empty((steps + 1, n)), np.empty((steps, n))
+    error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
+    q[0] = q0
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     kept, pair_kept = np.zeros(n + m), np.zeros(len(arrays.pairs))
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
-        count = sense(arrays, numbers, run.q[step], reading, B)
+        count = sense(arrays, numbers, q[step], reading, B)
         follow(circle, step * dt, position, velocity)
-        run.distance[step] = observe(B, position, run.error[step])
+        distance[step] = observe(B, position, error[step])
         if step == steps:
             break
-        program = state(arrays, numbers, run.q[step], q0, position, velocity, count, B)
+        program = state(arrays, numbers, q[step], q0, position, velocity, count, B)
         k = len(program.h)
         u = np.empty(n + m + k)
         u[: n + m] = kept
@@ -116,10 +120,10 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
         for j in range(k):
             pair_kept[B.chosen[j]] = u[n + m + j]
         run.rows[step] = k
-        run.x[step] = u[:n]
+        x[step] = u[:n]
         if not np.abs(u[:n]).max() < FASTEST:
             return DIVERGED, step, run
-        run.q[step + 1] = run.q[step] + dt * u[:n]
+        q[step + 1] = q[step] + dt * u[:n]
     return DONE, steps, run
 
 
