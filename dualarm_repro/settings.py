@@ -13,11 +13,19 @@ from .errors import InputError, UnknownNameError
 Positive = Annotated[float, Field(gt=0)]
 
 _Choice = TypeVar("_Choice", bound=StrEnum)
+_Numbers = TypeVar("_Numbers")
 
 
 def code(member: StrEnum) -> int:
     """Number of a choice inside compiled code: its place among the choices."""
     return list(type(member)).index(member)
+
+
+def numbers(kind: type[_Numbers], settings: Settings, **computed: Any) -> _Numbers:
+    """A named tuple for kernels: each field as computed or as set, a choice by its :func:`code`."""
+    found = {**dict(settings), **computed}
+    values = (found[name] for name in kind.__annotations__)
+    return kind(*(code(one) if isinstance(one, StrEnum) else one for one in values))
 
 
 def choice(kind: type[_Choice], source: str, field: str, name: str) -> _Choice:

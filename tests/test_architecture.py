@@ -22,6 +22,7 @@ FLOORS = (
         "settings",
         "kernel",
         "differences",
+        "instrument",
     ),
     ("ledger",),
     ("arms",),

@@ -10,12 +10,12 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from ..errors import ConfigurationError, UnsupportedArmError
+from ..errors import UnsupportedArmError
 from . import dh, kernels
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
-from .poses import check_poses
+from .poses import check_configurations, check_poses
 from .robot_file import DHRobot
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
@@ -58,14 +58,8 @@ class Arm:
     @classmethod
     def from_dh(cls, name: str, robot: DHRobot) -> Arm:
         """Arm of a DH table."""
-        return cls(
-            name,
-            robot.title,
-            build_model(robot, name),
-            FLANGE,
-            partial(capsule_geometry, robot.capsules),
-            robot,
-        )
+        capsules = partial(capsule_geometry, robot.capsules)
+        return cls(name, robot.title, build_model(robot, name), FLANGE, capsules, robot)
 
     def __repr__(self) -> str:
         return f"<Arm {self.name}: {self.nq} joints, {self.title}>"
@@ -152,6 +146,12 @@ class Arm:
         if q.ndim == 2:
             return kernels.manipulabilities(self.chain, q)
         return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
+
+    def limits(self, enforced: bool = True) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper limits of the joints (nq,) [rad], infinite unless ``enforced``."""
+        if enforced:
+            return self.lower, self.upper
+        return np.full(self.nq, -np.inf), np.full(self.nq, np.inf)
 
     def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
         """Whether lower - tolerance <= q <= upper + tolerance [rad], bool or (N,) of bool."""
@@ -260,16 +260,7 @@ class Arm:
             Wrong shape, NaN or infinity.
         """
         expected = f"{self.nq} finite numbers [rad], or rows of {self.nq}"
-        try:
-            array = np.asarray(q, dtype=float)
-        except (TypeError, ValueError):
-            raise ConfigurationError(f"arm {self.name}", "q", q, expected) from None
-        if array.ndim not in (1, 2) or array.shape[-1] != self.nq:
-            raise ConfigurationError(f"arm {self.name}", "shape of q", array.shape, expected)
-        if not np.isfinite(array).all():
-            wrong = array[~np.isfinite(array)][0]
-            raise ConfigurationError(f"arm {self.name}", "q", float(wrong), expected)
-        return array
+        return check_configurations(f"arm {self.name}", q, self.nq, expected)
 
     def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
         return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]
@@ -285,9 +276,7 @@ class Arm:
         near = 0.5 * (self.lower + self.upper)
         if reference is not None:
             near = self.configurations(reference)
-        unlimited = np.full(self.nq, np.inf)
-        lower, upper = (self.lower, self.upper) if within_limits else (-unlimited, unlimited)
-        return inverse_kinematics(geometry, poses, near, lower, upper)
+        return inverse_kinematics(geometry, poses, near, *self.limits(within_limits))
 
     def _dh_robot(self, wanted: str) -> DHRobot:
         if self._robot is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -18,14 +18,11 @@ ROUNDING = 1e-4  # a capsule that sticks out of another one by less [m] counts a
 
 def capsule_geometry(capsules: Iterable[Capsule]) -> pin.GeometryModel:
     """One coal capsule per entry, in the joint frame it names; adds no collision pair."""
-    geometry = pin.GeometryModel()
-    for k, capsule in enumerate(capsules):
-        placement, shape = segment_capsule(
-            np.array(capsule.start), np.array(capsule.end), capsule.radius
-        )
-        name = f"capsule_{k}_joint_{capsule.joint}"
-        geometry.addGeometryObject(pin.GeometryObject(name, capsule.joint, placement, shape))
-    return geometry
+    made = []
+    for k, one in enumerate(capsules):
+        name, ends = f"capsule_{k}_joint_{one.joint}", (np.array(one.start), np.array(one.end))
+        made.append(LinkCapsule(name, one.joint, *ends, one.radius))
+    return geometry_of(made)
 
 
 def segment_capsule(
@@ -55,20 +52,12 @@ def enclosing_capsules(shapes: pin.GeometryModel) -> pin.GeometryModel:
     for shape in shapes.geometryObjects:
         start, end, radius = _enclose(shape.geometry)
         ends = shape.placement.act(start), shape.placement.act(end)
-        found.append(_Enclosing(shape.name, shape.parentJoint, *ends, radius))
-    geometry = pin.GeometryModel()
-    for k, capsule in enumerate(found):
-        inside = [other for other in found if other is not capsule and capsule.inside(other)]
-        if all(other.inside(capsule) and found.index(other) > k for other in inside):
-            placement, shape = segment_capsule(capsule.start, capsule.end, capsule.radius)
-            geometry.addGeometryObject(
-                pin.GeometryObject(capsule.name, capsule.joint, placement, shape)
-            )
-    return geometry
+        found.append(LinkCapsule(shape.name, shape.parentJoint, *ends, radius))
+    return geometry_of(not_contained(found))
 
 
 @dataclass(frozen=True, eq=False)
-class _Enclosing:
+class LinkCapsule:
     """A capsule in the frame of its joint."""
 
     name: str
@@ -77,16 +66,45 @@ class _Enclosing:
     end: np.ndarray
     radius: float
 
-    def inside(self, other: _Enclosing) -> bool:
+    def inside(self, other: LinkCapsule) -> bool:
         """Whether it lies in another one: its two end balls do, and capsules are convex."""
-        axis = other.end - other.start
-        square = axis @ axis
-        for point in (self.start, self.end):
-            along = np.clip((point - other.start) @ axis / square, 0.0, 1.0) if square > 0 else 0.0
-            gap = np.linalg.norm(point - other.start - along * axis)
-            if self.joint != other.joint or gap + self.radius > other.radius + ROUNDING:
-                return False
-        return True
+        if self.joint != other.joint:
+            return False
+        gap = to_segment(np.array([self.start, self.end]), other.start, other.end).max()
+        return bool(gap + self.radius <= other.radius + ROUNDING)
+
+
+def not_contained(capsules: Sequence[LinkCapsule]) -> list[LinkCapsule]:
+    """Those that lie in no other one; of some that lie in each other, the first."""
+
+    def kept(k: int, one: LinkCapsule) -> bool:
+        around = [(j, other) for j, other in enumerate(capsules) if j != k and one.inside(other)]
+        return all(other.inside(one) and j > k for j, other in around)
+
+    return [one for k, one in enumerate(capsules) if kept(k, one)]
+
+
+def geometry_of(capsules: Iterable[LinkCapsule]) -> pin.GeometryModel:
+    """Coal capsules in the frames of their joints, without collision pairs."""
+    geometry = pin.GeometryModel()
+    for one in capsules:
+        placement, shape = segment_capsule(one.start, one.end, one.radius)
+        geometry.addGeometryObject(pin.GeometryObject(one.name, one.joint, placement, shape))
+    return geometry
+
+
+def capsule_ends(placement: pin.SE3, shape: coal.Capsule) -> tuple[np.ndarray, np.ndarray]:
+    """Start and end of the core of a capsule at a placement (3,) [m]."""
+    half = np.array([0.0, 0.0, shape.halfLength])
+    return placement.act(-half), placement.act(half)
+
+
+def to_segment(points: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Distances (N,) of points (N, 3) to a segment [m]."""
+    along = end - start
+    square = along @ along
+    share = ((points - start) @ along / square).clip(0.0, 1.0) if square else np.zeros(len(points))
+    return np.linalg.norm(points - start - share[:, None] * along, axis=1)
 
 
 def _enclose(shape: coal.CollisionGeometry) -> tuple[np.ndarray, np.ndarray, float]:
@@ -95,10 +113,11 @@ def _enclose(shape: coal.CollisionGeometry) -> tuple[np.ndarray, np.ndarray, flo
     if isinstance(shape, coal.Capsule | coal.Cylinder):
         half = np.array([0.0, 0.0, shape.halfLength])
         return -half, half, shape.radius
-    return _enclose_points(_corners(shape))
+    return _enclose_points(corners(shape))
 
 
-def _corners(shape: coal.CollisionGeometry) -> np.ndarray:
+def corners(shape: coal.CollisionGeometry) -> np.ndarray:
+    """Corners of a box, or vertices of a mesh (N, 3) [m]; UnsupportedArmError for another shape."""
     if isinstance(shape, coal.Box):
         return shape.halfSide * np.array(list(product((-1.0, 1.0), repeat=3)))
     if isinstance(shape, coal.BVHModelBase):

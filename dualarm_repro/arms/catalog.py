@@ -10,7 +10,7 @@ from example_robot_data import getModelPath
 from ..datafiles import data_path
 from ..errors import DataFileError, InputError, UnknownNameError
 from .arm import Arm
-from .robot_file import DHRobot, MirrorRobot, URDFRobot, load_robot_file
+from .robot_file import DHRobot, MirrorRobot, URDFRobot, changed, load_robot_file
 from .urdf import URDF
 
 
@@ -20,10 +20,7 @@ def arm_names() -> list[str]:
 
 
 def load_arm(
-    name_or_path: str | Path,
-    *,
-    flange: str | None = None,
-    lock: Mapping[str, float] | None = None,
+    name_or_path: str | Path, *, flange: str | None = None, lock: Mapping[str, float] | None = None
 ) -> Arm:
     """Load an arm by its name in ``data/robots``, or from a robot YAML or URDF file.
 
@@ -68,16 +65,12 @@ def load_arm(
         original = load_robot_file(path.with_name(f"{robot.of}.yaml"))
         if not isinstance(original, DHRobot):
             raise DataFileError(path, "of", robot.of, "the name of an arm given by a DH table")
-        return Arm.from_dh(name, original.mirrored().model_copy(update={"title": robot.title}))
+        return Arm.from_dh(name, changed(original.mirrored(), title=robot.title))
     return Arm.from_dh(name, robot)
 
 
 def _from_urdf_robot(
-    name: str,
-    path: Path,
-    robot: URDFRobot,
-    flange: str | None,
-    lock: Mapping[str, float] | None,
+    name: str, path: Path, robot: URDFRobot, flange: str | None, lock: Mapping[str, float] | None
 ) -> Arm:
     fixed = {joint: float(angle) for joint, angle in robot.lock.items()} if lock is None else lock
     model, shapes = (

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .angle import Angle
+from .exact_chain import chain_product
 from .robot_file import DHRobot
 
 
@@ -45,10 +46,7 @@ def link_transforms(robot: DHRobot) -> list[sp.Matrix]:
 
 def forward_kinematics(robot: DHRobot) -> sp.Matrix:
     """T(q) = T_1 T_2 ... T_n (T_flange), expanded, without trigonometric identities."""
-    product = sp.eye(4)
-    for transform in link_transforms(robot):
-        product = (product * transform).applyfunc(sp.expand)
-    return product
+    return chain_product(link_transforms(robot))
 
 
 def _exact(angle: Angle) -> sp.Expr:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 
 import numpy as np
 import pinocchio as pin
 
 from .arm import Arm
 from .dh import joint_symbols
+from .joint_axes import common_origins
 
 
 def frames_at_zero(arm: Arm) -> np.ndarray:
@@ -20,11 +22,10 @@ def frames_at_zero(arm: Arm) -> np.ndarray:
     return np.array(frames)
 
 
-def coinciding(frames: np.ndarray, within: float = 1e-12) -> list[list[int]]:
+def coinciding(frames: np.ndarray) -> list[list[int]]:
     """Pairs of frames (N, 4, 4), numbered from 1, whose origins are one point."""
-    origins = frames[:, :3, 3]
-    apart = np.linalg.norm(origins[:, np.newaxis] - origins, axis=2)
-    return (np.argwhere(np.triu(apart < within, 1)) + 1).tolist()
+    groups = common_origins(frames)
+    return [[a + 1, b + 1] for group in groups for a, b in combinations(group, 2)]
 
 
 def offset_chain(steps: Sequence[tuple[tuple[float, float, float], str]], q: np.ndarray) -> pin.SE3:

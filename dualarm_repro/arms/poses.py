@@ -1,14 +1,22 @@
-"""Checking of poses that come from outside."""
+"""Homogeneous poses, and the checks of poses and configurations that come from outside."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
+from ..errors import ConfigurationError, InputError
 from ..kernel import kernel
 
 ORTHONORMAL = 1e-6  # largest error of R^T R - I that counts as rounding
+
+
+def homogeneous(rotation: ArrayLike, translation: ArrayLike) -> np.ndarray:
+    """Poses (..., 4, 4) of rotations (..., 3, 3) and translations that broadcast to (..., 3)."""
+    R = np.asarray(rotation)
+    poses = np.zeros((*R.shape[:-2], 4, 4))
+    poses[..., :3, :3], poses[..., :3, 3], poses[..., 3, 3] = R, translation, 1.0
+    return poses
 
 
 def check_poses(source: str, T: ArrayLike, ndim: int) -> np.ndarray:
@@ -33,6 +41,25 @@ def check_poses(source: str, T: ArrayLike, ndim: int) -> np.ndarray:
         expected = "a finite right-handed rotation and translation with the last row 0, 0, 0, 1"
         raise InputError(source, "T", stack[wrong].tolist(), expected)
     return poses
+
+
+def check_configurations(source: str, q: ArrayLike, nq: int, expected: str) -> np.ndarray:
+    """``q`` as a float64 array (nq,) or (N, nq).
+
+    Raises
+    ------
+    ConfigurationError
+        Wrong shape, NaN or infinity.
+    """
+    try:
+        array = np.asarray(q, dtype=float)
+    except (TypeError, ValueError):
+        raise ConfigurationError(source, "q", q, expected) from None
+    if array.ndim not in (1, 2) or array.shape[-1] != nq:
+        raise ConfigurationError(source, "shape of q", array.shape, expected)
+    if not np.isfinite(array).all():
+        raise ConfigurationError(source, "q", float(array[~np.isfinite(array)][0]), expected)
+    return array
 
 
 @kernel

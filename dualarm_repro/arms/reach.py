@@ -26,7 +26,7 @@ def largest_reach(arm: Arm, rng: np.random.Generator, draws: int = 20_000) -> fl
 
 
 def symmetric_bases(distance: float) -> tuple[pin.SE3, pin.SE3]:
-    """Bases of two mirrored arms, ``distance`` [m] apart along y, the first on the +y side.
+    """Bases of two arms side by side, ``distance`` [m] apart along y, the first on the +y side.
 
     They are symmetric to the xz plane, in which an arm and its mirror image reflect each other.
     """

@@ -9,15 +9,9 @@ computation, ``assumed``, or ``stand-in`` for data of a similar robot.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, TypeVar, get_args
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    PlainSerializer,
-    TypeAdapter,
-    model_validator,
-)
+from pydantic import BeforeValidator, Field, PlainSerializer, TypeAdapter, model_validator
 
 from ..datafiles import StrictModel, Text, read_yaml
 from ..errors import DataFileError
@@ -31,9 +25,15 @@ ExactAngle = Annotated[
     Field(description=EXPECTED, json_schema_extra={"type": ["number", "string"]}),
 ]
 Point = tuple[Length, Length, Length]
+_Part = TypeVar("_Part", bound=StrictModel)
 Evidence = Literal["printed", "public", "inferred", "assumed", "stand-in"]
 Column = Literal["alpha", "a", "d", "offset", "lower", "upper", "velocity"]
 COLUMNS: tuple[Column, ...] = get_args(Column)
+
+
+def changed(part: _Part, **values: Any) -> _Part:
+    """A part of a robot file with other values, which are not checked again."""
+    return part.model_copy(update=values)
 
 
 class Origin(StrictModel):
@@ -141,33 +141,16 @@ class DHRobot(_Robot):
             return (point[0], -point[1], point[2])
 
         joints = [
-            joint.model_copy(
-                update={
-                    "alpha": -joint.alpha,
-                    "offset": -joint.offset,
-                    "lower": -joint.upper,
-                    "upper": -joint.lower,
-                }
-            )
-            for joint in self.joints
+            changed(j, alpha=-j.alpha, offset=-j.offset, lower=-j.upper, upper=-j.lower)
+            for j in self.joints
         ]
-        capsules = [
-            c.model_copy(update={"start": flip(c.start), "end": flip(c.end)}) for c in self.capsules
-        ]
-        flange = self.flange and self.flange.model_copy(
-            update={
-                "translation": flip(self.flange.translation),
-                "rpy": (-self.flange.rpy[0], self.flange.rpy[1], -self.flange.rpy[2]),
-            }
-        )
-        return self.model_copy(
-            update={
-                "title": f"{self.title}, mirror image",
-                "joints": joints,
-                "capsules": capsules,
-                "flange": flange,
-            }
-        )
+        capsules = [changed(c, start=flip(c.start), end=flip(c.end)) for c in self.capsules]
+        flange = self.flange
+        if flange:
+            rpy = (-flange.rpy[0], flange.rpy[1], -flange.rpy[2])
+            flange = changed(flange, translation=flip(flange.translation), rpy=rpy)
+        title = f"{self.title}, mirror image"
+        return changed(self, title=title, joints=joints, capsules=capsules, flange=flange)
 
 
 class URDFRobot(_Robot):

@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from .arm import Arm
+from .poses import homogeneous
 
 ToolRule = Literal["radial_horizontal", "tool_down", "nearest_branch"]
 _ELBOW = 2  # row of frame 3 among the joint origins
@@ -35,8 +36,7 @@ def tool_posture(arm: Arm, point: np.ndarray, rule: ToolRule) -> np.ndarray | No
     """
     radial = np.array([point[0], point[1], 0.0])
     axis = _DOWN if rule == "tool_down" else radial / np.linalg.norm(radial)
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = _frame_along(axis), point
+    pose = homogeneous(_frame_along(axis), point)
     found = arm.ik_branches(pose[np.newaxis], reference=np.zeros(arm.nq), within_limits=False)[0]
     found = found[~np.isnan(found).any(axis=1)]
     if rule != "nearest_branch":

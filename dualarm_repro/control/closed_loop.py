@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,17 @@ class Ending(StrEnum):
     NO_SOLUTION = "no joint velocity satisfies all constraints"
     UNCERTIFIED = "the solution failed its certificate"
     DIVERGED = "the network diverged"
+
+
+class Run(NamedTuple):
+    """Where a loop of N steps writes what :class:`.motion.Motion` holds, see there."""
+
+    q: np.ndarray
+    x: np.ndarray
+    error: np.ndarray
+    distance: np.ndarray
+    rows: np.ndarray
+    slack: np.ndarray
 
 
 DONE, DIVERGED = code(Ending.DONE), code(Ending.DIVERGED)
@@ -56,24 +68,15 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
     -------
     status, taken : int
         Number of the :class:`Ending`, and after how many steps.
-    q : (steps + 1, n)
-    x : (steps, n)
-    error : (steps + 1, A)
-        Distance of each tip from its path [m].
-    distance : (steps + 1,)
-        Smallest surface distance [m].
-    rows : (steps,)
-    slack : (steps,)
-        Norm of what the task gave up [m/s].
+    run : Run
     """
-    n, arms = len(q0), len(arrays.base)
+    n, arms, status = len(q0), len(arrays.base), DONE
     buffers = make_buffers(arrays, numbers)
-    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
-    rows, slack = np.zeros(steps, np.int64), np.zeros(steps)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
     q[0] = q0
-    status = DONE
+    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
         count = sense(arrays, numbers, q[step], reading, buffers)
@@ -85,15 +88,15 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
         found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)
-            slack[step] = np.sqrt((s * s).sum())
+            run.slack[step] = np.sqrt((s * s).sum())
             program = with_task(program, program.b - s)
         if found != SOLVED:
             status = _NO_SOLUTION
         elif residual(program, v, y, z, w) > CERTIFIED:
             status = _UNCERTIFIED
         if status != DONE:
-            return status, step, q, x, error, distance, rows, slack
-        rows[step] = len(program.h)
+            return status, step, run
+        run.rows[step] = len(program.h)
         x[step] = v
         q[step + 1] = q[step] + dt * v
-    return status, steps, q, x, error, distance, rows, slack
+    return status, steps, run

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 
 from ..arms.arm import Arm
+from ..arms.reach import symmetric_bases
 from ..scene.bodies import PlacedArm
 from .circle import Circles
 from .random_tasks import CircleTask
@@ -17,11 +17,8 @@ from .system import ArmSystem
 
 def arm_pair(arm: Arm, base_distance: float) -> ArmSystem:
     """Two arms of one model, bases ``base_distance`` [m] apart along y, both looking along x."""
-    placed = []
-    for name, side in (("left", 1.0), ("right", -1.0)):
-        base = np.array([0.0, side * base_distance / 2, 0.0])
-        placed.append(PlacedArm(name, arm, pin.SE3(np.eye(3), base)))
-    return ArmSystem(placed)
+    bases = zip(("left", "right"), symmetric_bases(base_distance), strict=True)
+    return ArmSystem([PlacedArm(name, arm, base) for name, base in bases])
 
 
 @dataclass(frozen=True, eq=False)

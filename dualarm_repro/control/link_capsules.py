@@ -8,9 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
-from ..arms.capsules import segment_capsule
-
-_INSIDE = 1e-4  # [m] a capsule that sticks out by less is left out
+from ..arms.capsules import LinkCapsule, capsule_ends, geometry_of, not_contained, to_segment
 
 
 def with_capsules(
@@ -32,20 +30,12 @@ def with_capsules(
     widened = dict(widened or {})
 
     def build() -> pin.GeometryModel:
-        shapes = [
-            (g.name, g.parentJoint, *_ends(g), widened.get(g.name, g.geometry.radius))
-            for g in arm.geometry.geometryObjects
-            if g.name not in dropped
-        ]
-        shapes += added
-        geometry = pin.GeometryModel()
-        for k, (name, joint, start, end, radius) in enumerate(shapes):
-            others = shapes[:k] + shapes[k + 1 :]
-            if any(_contains(o, shapes[k]) for o in others if o[1] == joint):
-                continue
-            placement, capsule = segment_capsule(start, end, radius)
-            geometry.addGeometryObject(pin.GeometryObject(name, joint, placement, capsule))
-        return geometry
+        kept = [g for g in arm.geometry.geometryObjects if g.name not in dropped]
+        sizes = [widened.get(g.name, g.geometry.radius) for g in kept]
+        ends = [capsule_ends(g.placement, g.geometry) for g in kept]
+        named = [(g.name, g.parentJoint) for g in kept]
+        rows = [(*name, *pair, size) for name, pair, size in zip(named, ends, sizes, strict=True)]
+        return geometry_of(not_contained([LinkCapsule(*row) for row in (*rows, *added)]))
 
     flange = arm.model.frames[arm.flange_id].name
     return Arm(arm.name, arm.title, arm.model, flange, build)
@@ -67,26 +57,6 @@ def sticking_out(arm: Arm, q: np.ndarray, joint: int, points: np.ndarray) -> flo
     placed = points @ data.oMi[joint].rotation.T + data.oMi[joint].translation
     reach = np.full(len(points), np.inf)
     for g in arm.geometry.geometryObjects:
-        start, end = (data.oMi[g.parentJoint].act(end) for end in _ends(g))
-        reach = np.minimum(reach, _to_segment(placed, start, end) - g.geometry.radius)
+        ends = map(data.oMi[g.parentJoint].act, capsule_ends(g.placement, g.geometry))
+        reach = np.minimum(reach, to_segment(placed, *ends) - g.geometry.radius)
     return float(reach.max())
-
-
-def _ends(g: pin.GeometryObject) -> tuple[np.ndarray, np.ndarray]:
-    half = g.geometry.halfLength
-    return tuple(g.placement.act(np.array([0.0, 0.0, sign * half])) for sign in (-1.0, 1.0))
-
-
-def _to_segment(points: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    along = end - start
-    square = along @ along
-    share = ((points - start) @ along / square).clip(0.0, 1.0) if square else np.zeros(len(points))
-    return np.linalg.norm(points - start - share[:, None] * along, axis=1)
-
-
-def _contains(outer: tuple, inner: tuple) -> bool:
-    """Whether a capsule lies inside a longer or thicker one."""
-    _, _, start, end, radius = outer
-    reach = _to_segment(np.array([inner[2], inner[3]]), start, end).max() + inner[4]
-    longer = np.linalg.norm(inner[3] - inner[2]) < np.linalg.norm(end - start)
-    return reach <= radius + _INSIDE and (inner[4] < radius or longer)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import product
 from pathlib import Path
 
-import coal
 import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
+from ..arms.capsules import corners
 from .link_capsules import sticking_out
 
 
@@ -42,14 +41,7 @@ def mesh_excess(arm: Arm, urdf: Path, configurations: np.ndarray) -> dict[str, f
     for g in reduced.geometryObjects:
         if not g.parentJoint:
             continue
-        points = _corners(g.geometry)
+        points = np.unique(corners(g.geometry), axis=0)
         placed = points @ g.placement.rotation.T + g.placement.translation
         excess[g.name] = max(sticking_out(arm, q, g.parentJoint, placed) for q in configurations)
     return excess
-
-
-def _corners(shape: coal.CollisionGeometry) -> np.ndarray:
-    """Vertices of a mesh or a box (N, 3)."""
-    if isinstance(shape, coal.Box):
-        return shape.halfSide * np.array(list(product((-1.0, 1.0), repeat=3)))
-    return np.unique(np.array(shape.vertices()), axis=0)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..instrument import Cost, Instrument
 from .assembly import make_buffers
 from .circle import Circles, follow
 from .controller import control_step
-from .instrument import Cost, Instrument
 from .least_distance import least_distance
 from .neural.network import network_rate, state_rate
 from .neural.network_settings import NetworkSettings

@@ -11,6 +11,8 @@ import numpy as np
 
 from ..kernel import kernel
 
+ProgramShapes = dict[str, tuple[int, ...]]
+
 
 class ProgramParts(NamedTuple):
     """``target``, ``lower``, ``upper`` (n,), ``A`` (m, n), ``b`` (m,), ``G`` (k, n), ``h`` (k,)."""
@@ -22,6 +24,13 @@ class ProgramParts(NamedTuple):
     h: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
+
+
+def shapes(n: int, m: int, k: int) -> ProgramShapes:
+    """Shape of each part for n unknowns, m equalities and k inequalities."""
+    return dict(
+        zip(ProgramParts._fields, ((n,), (m, n), (m,), (k, n), (k,), (n,), (n,)), strict=True)
+    )
 
 
 class ProgramStack(NamedTuple):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DualArmError, InputError, shorten
-from .parts import ProgramParts
+from .parts import ProgramParts, shapes
 
 #: Residual up to which a solution counts as certified.
 CERTIFIED = 1e-8
@@ -68,16 +68,7 @@ class QuadraticProgram:
                 raise InputError("QuadraticProgram", name, value, "an array of numbers") from None
             object.__setattr__(self, name, array)
         n, m, k = len(np.atleast_1d(self.target)), np.size(self.b), np.size(self.h)
-        shapes = {
-            "target": (n,),
-            "A": (m, n),
-            "b": (m,),
-            "G": (k, n),
-            "h": (k,),
-            "lower": (n,),
-            "upper": (n,),
-        }
-        for name, shape in shapes.items():
+        for name, shape in shapes(n, m, k).items():
             array = getattr(self, name)
             if array.shape != shape:
                 raise InputError("QuadraticProgram", f"shape of {name}", array.shape, str(shape))

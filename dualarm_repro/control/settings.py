@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from ..settings import Positive, Settings, code
+from ..settings import Positive, Settings, numbers
 
 NotNegative = Annotated[float, Field(ge=0)]
 
@@ -114,30 +114,7 @@ class ControllerSettings(Settings):
             raise ValueError(f"more than inner, {inner:g} m")
         return outer
 
-    @property
-    def closing_speed(self) -> float:
-        """Approach that the damper allows where a pair enters, k (d1 - d2) [m/s].
-
-        Faster approach is braked at once, so that the joint velocity jumps there.
-        """
-        return self.damper_gain * (self.outer - self.inner)
-
     def numbers(self) -> ControllerNumbers:
         """For the kernels."""
-        return ControllerNumbers(
-            feedback=self.feedback,
-            repetition=self.repetition,
-            avoid=self.avoid,
-            form=code(self.form),
-            rows_per_pair=ROWS_PER_PAIR[self.form],
-            selection=code(self.selection),
-            damper=code(self.damper),
-            damper_gain=self.damper_gain,
-            outer=self.outer,
-            inner=self.inner,
-            thickness=1.0 if self.surface else 0.0,
-            limits=self.limits,
-            angle_limits=self.angle_limits,
-            limit_gain=self.limit_gain,
-            limit_margin=self.limit_margin,
-        )
+        rows, thickness = ROWS_PER_PAIR[self.form], float(self.surface)
+        return numbers(ControllerNumbers, self, rows_per_pair=rows, thickness=thickness)

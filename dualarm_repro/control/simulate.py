@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .circle import Circles
-from .closed_loop import DONE, Ending, run_exact
+from .closed_loop import DONE, Ending, Run, run_exact
 from .motion import Motion
 from .settings import ControllerNumbers, ControllerSettings
 from .system import ArmSystem
@@ -49,10 +49,8 @@ def simulate(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     weight = SLACK_WEIGHT if slack else 0.0
-    status, taken, q, x, error, distance, counts, given = run_exact(
-        system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise
-    )
-    return truncated(status, taken, dt, q, x, error, distance, counts, given)
+    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise
+    return truncated(dt, *run_exact(*arguments))
 
 
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
@@ -83,28 +81,9 @@ def checked_run(
     return system.configuration(q0), settings.numbers(), steps
 
 
-def truncated(
-    status: int,
-    taken: int,
-    dt: float,
-    q: np.ndarray,
-    x: np.ndarray,
-    error: np.ndarray,
-    distance: np.ndarray,
-    rows: np.ndarray,
-    slack: np.ndarray,
-) -> Motion:
+def truncated(dt: float, status: int, taken: int, run: Run) -> Motion:
     """Motion of the steps that were taken."""
     reason = None if status == DONE else f"{list(Ending)[status]} at t = {taken * dt:.3f} s"
-    k = taken + 1
-    return Motion(
-        dt,
-        dt * np.arange(k),
-        q[:k],
-        x[:taken],
-        error[:k],
-        distance[:k],
-        rows[:taken],
-        slack[:taken],
-        reason,
-    )
+    looks = run.q[: taken + 1], run.x[:taken], run.error[: taken + 1], run.distance[: taken + 1]
+    steps = run.rows[:taken], run.slack[:taken]
+    return Motion(dt, dt * np.arange(taken + 1), *looks, *steps, reason)

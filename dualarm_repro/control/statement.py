@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .parts import shapes
 from .problem import NoSolution, QuadraticProgram, Solution
 
 _IN_PLACE_OF_INFINITY = 1e6  # [rad/s] stands for an absent bound: a parameter has to be finite
@@ -24,18 +25,7 @@ def statement(n: int, m: int, k: int) -> tuple[Any, dict[str, Any], Any, list[An
     import cvxpy as cp
 
     x = cp.Variable(n)
-    shapes: dict[str, Any] = {
-        "target": n,
-        "A": (m, n),
-        "b": m,
-        "G": (k, n),
-        "h": k,
-        "lower": n,
-        "upper": n,
-    }
-    p = {
-        name: cp.Parameter(shape) for name, shape in shapes.items() if 0 not in np.atleast_1d(shape)
-    }
+    p = {name: cp.Parameter(shape) for name, shape in shapes(n, m, k).items() if 0 not in shape}
     constraints = [p["lower"] <= x, x <= p["upper"]]
     if m:
         constraints.append(p["A"] @ x == p["b"])

@@ -131,12 +131,8 @@ class ArmSystem:
         """Flange positions of all arms in the world (A, 3) [m]."""
         q = self.configuration(q)
         columns = np.split(q, self.arrays.start[1:-1])
-        return np.array(
-            [
-                p.placement.act(p.arm.fk(part)[:3, 3])
-                for p, part in zip(self.arms, columns, strict=True)
-            ]
-        )
+        pairs = zip(self.arms, columns, strict=True)
+        return np.array([p.placement.act(p.arm.fk(part)[:3, 3]) for p, part in pairs])
 
 
 _LIMITS = ("lower", "upper", "velocity_limit")

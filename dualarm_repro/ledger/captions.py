@@ -26,6 +26,9 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 class Caption:
     """A block of a template, and values for it beside those that the result gives.
 
+    Blocks are filled alone: macros and ``{% set %}`` stand inside the block that uses them, and a
+    sentence of several blocks is one of its own, ``{{ self.name() }}``.
+
     Attributes
     ----------
     path

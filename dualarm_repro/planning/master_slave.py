@@ -19,7 +19,7 @@ from ..settings import Settings
 from .arm_path import ArmPath
 from .checks.link_clearance import LinkClearance, link_clearance
 from .descent.compiled import plan_apf_compiled
-from .field.control_points import ControlPoints, control_points, end_effector, ends_of
+from .field.control_points import ControlPoints, control_points
 from .field.obstacles import Obstacles, obstacles_of
 from .plan import Plan
 from .settings import APFSettings, PointSet
@@ -87,32 +87,9 @@ class CoordinatedPlan(Generic[_Plan_co]):
         """0, 1, ... until every arm has arrived."""
         return np.arange(1.0 + max(np.ceil(path.index[-1]) for path in self.paths.values()))
 
-    def tcp_distance(self, first: str, second: str) -> np.ndarray:
-        """Distance of two flanges over the index [m]."""
-        points = [end_effector(*self._motion(name)) for name in (first, second)]
-        return np.linalg.norm(points[0] - points[1], axis=1)
-
-    def point_distance(
-        self, first: str, second: str, choice: PointSet | Sequence[int]
-    ) -> np.ndarray:
-        """Smallest distance of the control points of two arms over the index [m]."""
-        ends = []
-        for placed, q in map(self._motion, (first, second)):
-            ends.append(ends_of(placed, control_points(placed.arm, choice), q)[:, :, 0])
-        gaps = ends[0][:, :, np.newaxis] - ends[1][:, np.newaxis]
-        return np.linalg.norm(gaps, axis=-1).min(axis=(1, 2))
-
     def links(self, max_step: float) -> LinkClearance:
         """Distances of whole links, see :func:`.link_clearance.link_clearance`."""
         return link_clearance(self.scene, self.paths, max_step)
-
-    def _motion(self, name: str) -> tuple[PlacedArm, np.ndarray]:
-        """An arm and its joints over the index."""
-        if name not in self.plans:
-            raise UnknownNameError(
-                "CoordinatedPlan", "arm", name, f"one of {', '.join(self.plans)}"
-            )
-        return self.plans[name].placed, self.paths[name].at(self.index)
 
 
 def plan_master_slave(

@@ -34,21 +34,21 @@ class Method(Generic[_Settings]):
     Attributes
     ----------
     name, description : str
+    adapted : callable
+        Settings of the family -> those of this method, so that one file serves all of a family.
     settings : type
         What it is set up with; ``settings.model_json_schema()`` describes every field.
     default : callable
         Arm -> settings that suit its size, for a scene that brings none.
-    adapted : callable
-        Settings of the family -> those of this method, so that one file serves all of a family.
     plan : callable
         Task set and tasks of the arms -> their plans.
     """
 
     name: str
     description: str
+    adapted: Callable[[_Settings], _Settings]
     settings: type[_Settings]
     default: Callable[[Arm], _Settings]
-    adapted: Callable[[_Settings], _Settings]
     plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
 
     def planned(self, path: str | Path) -> AnyPlan:
@@ -57,9 +57,7 @@ class Method(Generic[_Settings]):
         arms = {placed.name: placed for placed in given.scene.arms}
         tasks = {
             arm: Task(
-                task.start,
-                task.goal,
-                self.adapted(given.settings or self.default(arms[arm].arm)),
+                task.start, task.goal, self.adapted(given.settings or self.default(arms[arm].arm))
             )
             for arm, task in given.tasks.items()
         }
@@ -104,8 +102,8 @@ def _from_both_ends(
     return plan_arms_bidirectional(given.scene, tasks, given.leave_out)
 
 
-_APF = (APFSettings, default_settings)
-_SEARCH = (TwoArmSettings, default_two_arm_settings)
+_APF = (APFSettings, default_settings, _in_turn)
+_SEARCH = (TwoArmSettings, default_two_arm_settings, _from_both_ends)
 
 AnyMethod = Method[APFSettings] | Method[TwoArmSettings]
 METHODS: dict[str, AnyMethod] = {
@@ -114,44 +112,38 @@ METHODS: dict[str, AnyMethod] = {
         Method(
             "apf-improved",
             "attraction by position and joints, repulsion of all control points, virtual point",
-            *_APF,
             lambda settings: settings,
-            _in_turn,
+            *_APF,
         ),
         Method(
             "apf-traditional",
             "attraction and repulsion of the end effector, by position only",
-            *_APF,
             _at_the_tool,
-            _in_turn,
+            *_APF,
         ),
         Method(
             "apf-traditional-points",
             "attraction of the end effector by position, repulsion of all control points",
-            *_APF,
             _traditional,
-            _in_turn,
+            *_APF,
         ),
         Method(
             "attraction-only",
             "attraction alone: obstacles are ignored",
-            *_APF,
             _attraction_only,
-            _in_turn,
+            *_APF,
         ),
         Method(
             "apf-bidirectional",
             "search from both ends in joint space, variable gain and step; hull of the master",
-            *_SEARCH,
             lambda settings: settings,
-            _from_both_ends,
+            *_SEARCH,
         ),
         Method(
             "apf-one-sided",
             "the same search from the start only, with constant gain and step",
-            *_SEARCH,
             one_sided,
-            _from_both_ends,
+            *_SEARCH,
         ),
     )
 }

@@ -15,7 +15,23 @@ from .descent.termination import StopReason
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(ArmPath):
+class Record:
+    """What the loop of a planner leaves behind; see :class:`Plan`."""
+
+    path: np.ndarray
+    attractive: np.ndarray
+    repulsive: np.ndarray
+    virtual: np.ndarray
+    clearance: np.ndarray
+    active: np.ndarray
+    reason: StopReason
+    activations: int
+    arrivals: int
+    wall_time: float
+
+
+@dataclass(frozen=True, eq=False)
+class Plan(Record, ArmPath):
     """Result of a planner; row s belongs to step s, N = steps + 1 rows.
 
     Attributes
@@ -52,21 +68,11 @@ class Plan(ArmPath):
 
     placed: PlacedArm
     goal: np.ndarray
-    path: np.ndarray
-    attractive: np.ndarray
-    repulsive: np.ndarray
-    virtual: np.ndarray
-    clearance: np.ndarray
-    active: np.ndarray
     point_names: tuple[str, ...]
     obstacle_names: tuple[str, ...]
-    reason: StopReason
     certificate: Certificate | None
-    activations: int
-    arrivals: int
     rescued: bool
     outside_limits: tuple[str, ...]
-    wall_time: float
 
     @property
     def reached(self) -> bool:

@@ -1,4 +1,7 @@
-"""Settings of the potential field planners: every gain is stated, every value checked."""
+"""Settings of the potential field planners: every gain is stated, every value checked.
+
+The choices of the search from both ends are named here too, since its field and steps know them.
+"""
 
 from __future__ import annotations
 
@@ -43,6 +46,45 @@ class Switching(StrEnum):
     REPLACES_GOAL = "replaces_goal"
     FROM_START = "from_start"
     ALWAYS = "always"
+
+
+class Threshold(StrEnum):
+    """What is compared with the threshold where the attraction turns from quadratic to conic."""
+
+    NORM = "norm"
+    PER_JOINT = "per_joint"
+
+
+class GainRule(StrEnum):
+    """Factor of the repulsive gain near the distance where the resultant has flipped."""
+
+    CONSTANT = "constant"
+    POWER = "power"
+    RAMP = "ramp"
+    PROPORTIONAL = "proportional"
+
+
+class FlipRule(StrEnum):
+    """Which cosine between successive resultants counts as a flip."""
+
+    NEGATIVE = "negative"
+    BELOW_MINUS_HALF = "below_minus_half"
+
+
+class StepRule(StrEnum):
+    """How the length of a step follows the distances of the control points."""
+
+    CONSTANT = "constant"
+    SATURATING = "saturating"
+    PLAIN_DISTANCE = "plain_distance"
+    RELATIVE = "relative"
+
+
+class UpdateOrder(StrEnum):
+    """Whether the backward half aims at the forward end from before or after its step."""
+
+    BEFORE = "before"
+    AFTER = "after"
 
 
 #: Named sets of control points; frame n of an arm with n - 1 joints is its flange.

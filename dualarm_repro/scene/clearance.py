@@ -91,15 +91,11 @@ def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
 
 
 def _fill(
-    scene: Scene,
-    q: np.ndarray,
-    time: ArrayLike,
-    distance: np.ndarray,
-    witness: np.ndarray,
+    scene: Scene, q: np.ndarray, time: ArrayLike, distance: np.ndarray, witness: np.ndarray
 ) -> None:
     time = _times(time, len(q))
     bodies, rows = scene.bodies, scene.pairs.rows
-    for block in _blocks(len(q)):
+    for block in blocks(len(q), _BLOCK):
         placed = place(scene, q[block], time[block])
         cores, start = (placed.cores, bodies.radius), 0
         for sort, pairs in rows.items():
@@ -120,8 +116,9 @@ def _fill(
                         capsules_hull(*cores, *at, pairs, out, points)
 
 
-def _blocks(count: int) -> Iterator[slice]:
-    return (slice(start, start + _BLOCK) for start in range(0, count, _BLOCK))
+def blocks(count: int, size: int) -> Iterator[slice]:
+    """Portions of so many rows that are handled at once."""
+    return (slice(start, start + size) for start in range(0, count, size))
 
 
 def _times(time: ArrayLike, count: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from ..arms.arm import Arm
 from ..errors import UnknownNameError
 from .bodies import Bodies, Body, PlacedArm, Sort
 from .pair_kernels import capsules_capsules
-from .posing import link_frames, links_of, place_cores
+from .posing import cores_in, link_frames, links_of
 
 SORTS: tuple[Sort, ...] = ("capsule", "box", "plane", "hull")
 _SAMPLES = 64
@@ -107,8 +107,7 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     q = arm.lower + fraction * (arm.upper - arm.lower)
     links = links_of(arm)
     count = len(links.radius)
-    ends = np.empty((_SAMPLES, count, 2, 3))
-    place_cores(link_frames(arm.chain, np.eye(3, 4), q), links.joint, links.local, ends)
+    ends = cores_in(link_frames(arm.chain, np.eye(3, 4), q), links.joint, links.local)
     rows = np.argwhere(np.ones((count, count), dtype=bool))
     distance = np.empty((_SAMPLES, len(rows)))
     capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))

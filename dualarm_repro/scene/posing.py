@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
+from ..arms.capsules import capsule_ends
 from ..kernel import kernel
 
 
@@ -34,8 +35,7 @@ def links_of(arm: Arm) -> Links:
     for row, shape in zip(local, shapes, strict=True):
         frame = frames[shape.parentJoint]
         placement = data.oMi[shape.parentJoint] * shape.placement
-        for k, sign in enumerate((-1.0, 1.0)):
-            end = placement.act(np.array([0.0, 0.0, sign * shape.geometry.halfLength]))
+        for k, end in enumerate(capsule_ends(placement, shape.geometry)):
             row[k] = frame[:, :3].T @ (end - frame[:, 3])
     return Links(
         tuple(shape.name for shape in shapes),
@@ -76,6 +76,13 @@ def link_frames(chain, base, q):
                 G[r, 2] = F[r, 0] * C[0, 2] + F[r, 1] * C[1, 2] + F[r, 2] * C[2, 2]
                 G[r, 3] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
     return frames
+
+
+def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:
+    """The ends (N, C, 2, 3) that :func:`place_cores` fills."""
+    ends = np.empty((len(frames), *local.shape))
+    place_cores(frames, joint, local, ends)
+    return ends
 
 
 @kernel

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arms.poses import check_configurations
 from ..errors import ConfigurationError, InputError, UnknownNameError
 from .bodies import Bodies, PlacedArm, Shape, collect
 from .moving import JointPath, MovingArm, MovingShape
@@ -80,6 +81,12 @@ class Scene:
         return sum(placed.arm.nq for placed in self.arms)
 
     @cached_property
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper limits of the joints of all controlled arms (nq,) [rad]."""
+        lower, upper = zip(*(placed.arm.limits() for placed in self.arms), strict=True)
+        return np.concatenate(lower), np.concatenate(upper)
+
+    @cached_property
     def columns(self) -> dict[str, slice]:
         """Which entries of q belong to which arm."""
         ends = np.cumsum([placed.arm.nq for placed in self.arms]).tolist()
@@ -126,15 +133,7 @@ class Scene:
             Wrong shape, NaN or infinity.
         """
         expected = f"{self.nq} finite numbers [rad] for {', '.join(self.columns)}, or rows of them"
-        try:
-            array = np.asarray(q, dtype=float)
-        except (TypeError, ValueError):
-            raise ConfigurationError("scene", "q", q, expected) from None
-        if array.ndim not in (1, 2) or array.shape[-1] != self.nq:
-            raise ConfigurationError("scene", "shape of q", array.shape, expected)
-        if not np.isfinite(array).all():
-            raise ConfigurationError("scene", "q", array[~np.isfinite(array)][0], expected)
-        return array
+        return check_configurations("scene", q, self.nq, expected)
 
     def replaying(self, name: str, path: JointPath) -> Scene:
         """The same scene with one controlled arm turned into an obstacle that follows ``path``.

@@ -7,8 +7,6 @@ capsules is the sum of the radii: the signed distance is |core distance| - r_a -
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..kernel import kernel
 from .vectors import along, cross, dot, minus, perpendicular, scaled
 
@@ -87,23 +85,3 @@ def segment_segment(a, u, b, v):
     else:
         normal = perpendicular(u if uu >= vv else v)
     return distance, p, q, normal
-
-
-def segment_segment_reference(a: np.ndarray, b: np.ndarray) -> float:
-    """Distance of two segments (2, 3), in the fewest ideas: an end is nearest, or the lines are.
-
-    Readable yardstick for :func:`closest_parameters`; it is not meant for nearly parallel segments
-    that cross.
-    """
-
-    def to_segment(p: np.ndarray, start: np.ndarray, end: np.ndarray) -> float:
-        u = end - start
-        s = np.clip((p - start) @ u / (u @ u), 0, 1) if u.any() else 0.0
-        return float(np.linalg.norm(start + s * u - p))
-
-    ends = [to_segment(p, *b) for p in a] + [to_segment(p, *a) for p in b]
-    A = np.column_stack([a[1] - a[0], b[0] - b[1]])
-    (s, t), _, rank, _ = np.linalg.lstsq(A, b[0] - a[0])
-    if rank == 2 and 0 <= s <= 1 and 0 <= t <= 1:
-        ends.append(float(np.linalg.norm(a[0] - b[0] + A @ [s, t])))
-    return min(ends)

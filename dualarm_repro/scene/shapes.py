@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arms.capsules import segment_capsule
 from ..errors import InputError
 from .hull import ConvexHull
 from .quantities import array_of, positive, rotation3, unit3, vector3
@@ -72,12 +73,8 @@ class Capsule:
 
     def coal(self) -> tuple[coal.CollisionGeometry, coal.Transform3s]:
         """Geometry and placement for coal, whose capsule lies along z around its middle."""
-        axis = self.end - self.start
-        length = float(np.linalg.norm(axis))
-        z = np.array([0.0, 0.0, 1.0])
-        rotation = pin.Quaternion.FromTwoVectors(z, axis if length > 0 else z).matrix()
-        middle = 0.5 * (self.start + self.end)
-        return coal.Capsule(self.radius, length), coal.Transform3s(rotation, middle)
+        placement, shape = segment_capsule(self.start, self.end, self.radius)
+        return shape, coal.Transform3s(placement.rotation, placement.translation)
 
 
 @dataclass(frozen=True, eq=False)

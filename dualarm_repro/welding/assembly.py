@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arms import Arm
+from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
 from .cell import WELDER, Cell
 from .posture import flat_rotations
@@ -124,18 +125,10 @@ def assemble(
     towards = bases[WELDER, :2, 3]
     tips = np.einsum("nij,nj->ni", rotations, seam.points)
     bisector = np.einsum("nij,nj->ni", rotations, seam.bisector)
-    turned = np.zeros((workpiece.seam_points, 4, 4))
-    turned[:, :3, :3], turned[:, 3, 3] = rotations, 1.0
-    grasps = [
-        grasp_pose(
-            tools.grasp,
-            tuple(base[:2, 3]),
-            0.5 * workpiece.length,
-            workpiece.radius_main,
-            tools.gripper_length,
-        )
-        for base in bases[:WELDER]
-    ]
+    turned = homogeneous(rotations, np.zeros(3))
+    size = 0.5 * workpiece.length, workpiece.radius_main
+    sides = (tuple(base[:2, 3]) for base in bases[:WELDER])
+    grasps = [grasp_pose(tools.grasp, side, *size, tools.gripper_length) for side in sides]
     axes = torch_axes(tools.torch_axis, bisector, towards)
     flanges = [*(turned @ grasp for grasp in grasps), torch_flanges(tips, axes, towards, torch)]
     gripper = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, tools.gripper_length]]])

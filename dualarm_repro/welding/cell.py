@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arms import Arm
+from ..arms.poses import homogeneous
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
 from ..errors import InputError
 
@@ -93,9 +94,7 @@ class Cell:
 
     def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper joint limits of a robot (6,) [rad]."""
-        if self.joint_limits:
-            return self.arms[robot].lower, self.arms[robot].upper
-        return np.full(6, -np.inf), np.full(6, np.inf)
+        return self.arms[robot].limits(self.joint_limits)
 
     def unlimited(self) -> Cell:
         """The same cell without joint limits and without a threshold of singularity."""
@@ -112,6 +111,4 @@ class Cell:
 
     def piece_pose(self, centre: np.ndarray) -> np.ndarray:
         """^w_c T = [R(theta), C; 0, 1] at each seam point (N, 4, 4) [m]."""
-        poses = np.zeros((self.count, 4, 4))
-        poses[:, :3, :3], poses[:, :3, 3], poses[:, 3, 3] = self.rotations, centre, 1.0
-        return poses
+        return homogeneous(self.rotations, centre)

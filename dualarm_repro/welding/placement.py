@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..scene.clearance import blocks as rows_of
 from .branches import Status, follow
 from .cell import Cell
 from .objective import Measures, Objective, inverse_volumes
@@ -146,4 +147,4 @@ def _positions(centres: ArrayLike) -> np.ndarray:
 
 def blocks(points: np.ndarray) -> Iterator[np.ndarray]:
     """The points in portions whose jobs fit in memory."""
-    return (points[k : k + _BLOCK] for k in range(0, len(points), _BLOCK))
+    return (points[rows] for rows in rows_of(len(points), _BLOCK))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
 
 from ..scene.bodies import Bodies, Body, PlacedArm, collect
+from ..scene.clearance import blocks
 from ..scene.pair_kernels import capsules_capsules, capsules_planes
 from ..scene.pairs import Pairs
 from ..scene.posing import link_frames, links_of, place_cores
@@ -85,7 +85,7 @@ class Separation:
         """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
         out, rows = np.empty(len(centres)), self.pairs.rows
         above, height = rows["plane"][:, 0].copy(), self.cell.floor or 0.0
-        for block in _blocks(len(centres)):
+        for block in blocks(len(centres), _BLOCK):
             ends = self.cores(q[block], centres[block])
             out[block] = smallest_distances(
                 ends, self.bodies.radius, rows["capsule"], above, height, self.cell.count
@@ -107,7 +107,7 @@ class Separation:
         """
         out, bodies = np.empty((len(centres), len(self.pairs))), self.bodies
         rows = self.pairs.rows
-        for block in _blocks(len(centres)):
+        for block in blocks(len(centres), _BLOCK):
             ends = self.cores(q[block], centres[block])
             distance = np.empty((len(ends), out.shape[1]))
             between, above = np.split(distance, [len(rows["capsule"])], axis=1)
@@ -116,10 +116,6 @@ class Separation:
             shape = (-1, self.cell.count, out.shape[1])
             out[block] = distance.reshape(shape).min(axis=1)
         return out
-
-
-def _blocks(count: int) -> Iterator[slice]:
-    return (slice(first, first + _BLOCK) for first in range(0, count, _BLOCK))
 
 
 def _bodies(cell: Cell) -> Bodies:

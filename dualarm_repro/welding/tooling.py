@@ -10,6 +10,7 @@ import pinocchio as pin
 
 from ..arms import Arm
 from ..arms.capsules import segment_capsule
+from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
 from .posture import smallest_rotations
 
@@ -92,7 +93,7 @@ def torch_flanges(
     x = np.append(towards, 0.0) / np.linalg.norm(towards)
     down = np.column_stack([x, np.cross(_DOWN, x), _DOWN])
     rotation = smallest_rotations(_DOWN, axes) @ down @ torch.rotation.T
-    return _poses(rotation, tips - rotation @ torch.centre_line[2])
+    return homogeneous(rotation, tips - rotation @ torch.centre_line[2])
 
 
 def torch_axes(name: str, bisector: np.ndarray, towards: np.ndarray) -> np.ndarray:
@@ -153,7 +154,7 @@ def grasp_pose(
     end = np.array([x * half_length, 0.0, 0.0])
     up = np.array([0.0, 0.0, 1.0])
     rotation = np.column_stack([up, np.cross(approach, up), approach])
-    return _poses(rotation, end - (gripper + radius * sin(angle)) * approach)
+    return homogeneous(rotation, end - (gripper + radius * sin(angle)) * approach)
 
 
 def with_tool(arm: Arm, cores: np.ndarray, radius: float) -> Arm:
@@ -170,18 +171,8 @@ def with_tool(arm: Arm, cores: np.ndarray, radius: float) -> Arm:
         extended = arm.geometry.copy()
         for k, (start, end) in enumerate(cores):
             placement, shape = segment_capsule(start, end, radius)
-            extended.addGeometryObject(
-                pin.GeometryObject(
-                    f"tool_{k}", frame.parentJoint, frame.placement * placement, shape
-                )
-            )
+            placed = f"tool_{k}", frame.parentJoint, frame.placement * placement, shape
+            extended.addGeometryObject(pin.GeometryObject(*placed))
         return extended
 
     return Arm(arm.name, arm.title, arm.model, frame.name, geometry)
-
-
-def _poses(rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
-    """Homogeneous poses (..., 4, 4)."""
-    poses = np.zeros((*rotation.shape[:-2], 4, 4))
-    poses[..., :3, :3], poses[..., :3, 3], poses[..., 3, 3] = rotation, translation, 1.0
-    return poses

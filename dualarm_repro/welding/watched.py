@@ -87,22 +87,18 @@ def watch(
     return trace
 
 
-def first_stop(
-    means: np.ndarray,
-    generations: int,
-    smallest: float,
-    window: int = GeneticSettings.stall_generations,
-) -> tuple[int, str]:
+def first_stop(means: np.ndarray, generations: int, smallest: float) -> tuple[int, str]:
     """Generation at which a run has to end, and by which rule (``none``: by neither).
 
     Generation limit reached, or a mean fitness whose change from one generation to the next is, on
-    average over a window, at most the smallest relative change.
+    average over the window of the settings, at most the smallest relative change.
 
     Parameters
     ----------
     means : ndarray (G,)
         Mean fitness of each generation, the first one included.
     """
+    window = GeneticSettings.stall_generations
     for last in range(len(means)):
         if last >= generations:
             return last, "generations"

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.control.instrument import Instrument
 from dualarm_repro.control.least_distance import least_distance
 from dualarm_repro.control.neural.network import network_rate
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.primal_dual import iterate
 from dualarm_repro.control.neural.saddle import factorise, forward
+from dualarm_repro.instrument import Instrument
 
 from .conftest import random_problem
 

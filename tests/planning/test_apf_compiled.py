@@ -157,5 +157,5 @@ def test_same_terms_gradient_and_step_anywhere(shift, step):
     here = terms.attractive + terms.repulsive
     move(field, rules, q, step, (True, False), here, work, out)
     limits = (np.full(6, -np.inf), np.full(6, np.inf))
-    expected = next_configuration(made.field, q, step, made.settings.update, *limits)
+    expected = next_configuration(made.field, q, step, made.settings.update, limits)
     assert out == pytest.approx(expected, abs=1e-9)

@@ -18,35 +18,32 @@ from window_scene import (
 from dualarm_repro.errors import UnknownNameError
 from dualarm_repro.planning import link_clearance, plan_apf_compiled
 from dualarm_repro.planning.field.control_points import end_effector
-from dualarm_repro.planning.trials.encounter import (
-    inside_opening,
-    instants,
-    tips_apart,
-    to_obstacles,
-)
+from dualarm_repro.planning.trials.encounter import inside_opening, to_obstacles
 from dualarm_repro.planning.trials.link_cores import link_cores
+from dualarm_repro.planning.trials.replay import Replay
 from dualarm_repro.scene import JointPath, facing
 
 PLAN = plan_apf_compiled(SLAVE, START, GOAL, around(), IMPROVED)
 TRACK = JointPath(np.linspace(MASTER_START, MASTER_GOAL, PLAN.steps + 31))
+REPLAY = Replay(PLAN, MASTER, TRACK, around())
 PATHS = {"master": TRACK, "slave": PLAN.joint_path()}
 FACING = facing((1.0, 0.0, 0.0))
 
 
 def test_an_arm_that_has_arrived_waits():
-    times, apart = instants(PLAN, TRACK), tips_apart(PLAN, MASTER, TRACK)
+    times, apart = REPLAY.times, REPLAY.apart()
     assert (times[0], times[-1]) == (0, PLAN.steps + 30)
     for k in (0, 7, len(times) - 1):
         other = end_effector(MASTER, TRACK.at(times[k : k + 1]))[0]
         assert apart[k] == pytest.approx(np.linalg.norm(PLAN.tcp[min(k, PLAN.steps)] - other))
     short = JointPath(TRACK.configurations[:5])
-    assert len(tips_apart(PLAN, MASTER, short)) == PLAN.steps + 1
+    assert len(Replay(PLAN, MASTER, short, around()).apart()) == PLAN.steps + 1
 
 
 def test_while_it_moves_is_the_beginning_of_it():
-    moving = tips_apart(PLAN, MASTER, TRACK, moving=True)
+    moving = REPLAY.apart(moving=True)
     assert len(moving) == PLAN.steps + 1
-    assert np.array_equal(moving, tips_apart(PLAN, MASTER, TRACK)[: PLAN.steps + 1])
+    assert np.array_equal(moving, REPLAY.apart()[: PLAN.steps + 1])
 
 
 def test_points_to_obstacles_are_those_the_planner_kept():

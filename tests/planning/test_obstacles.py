@@ -60,7 +60,7 @@ def test_a_moving_arm_repels_by_its_points_or_by_its_capsules():
     path = JointPath(np.linspace(START, GOAL, 6))
     replayed = scene().replaying("slave", path)
     points = control_points(SLAVE.arm, "frames_2_6", radius=0.02)
-    obstacles = obstacles_of(replayed, arm_points={"slave": points})
+    obstacles = obstacles_of(scene()).with_arm(SLAVE, points, path)
     assert obstacles.names[:2] == ("slave/frame_2", "slave/frame_3")
     assert len(set(obstacles.group[:5])) == 5
     for step in (0, 3, 50):
@@ -75,11 +75,13 @@ def test_an_arm_can_be_added_to_obstacles():
     path = JointPath(np.linspace(START, GOAL, 6), 2.0 * np.arange(6))
     points = control_points(SLAVE.arm, "end_effector")
     added = around().with_arm(SLAVE, points, path)
-    replayed = scene().replaying("slave", path)
-    other = obstacles_of(replayed, arm_points={"slave": points})
-    for name in ("names", "cores", "radius", "boxes", "half", "planes"):
-        assert np.array_equal(getattr(added, name), getattr(other, name)), name
-    assert len(added.cores) == 11
+    found, names = len(around().radius), around().names
+    assert added.names == (*names[:found], "slave/flange", *names[found:])
+    for step in (0, 5, 10):
+        expected = ends_of(SLAVE, points, path.at(np.array([float(step)])))[0]
+        assert np.array_equal(added.cores[step, found:], expected)
+    assert len(added.cores) == len(added.boxes) == 11
+    assert added.group[found] == 1 + around().group.max()
 
 
 def test_nothing_is_an_obstacle_too():
@@ -100,7 +102,6 @@ def test_what_a_planner_is_not_told():
     ("call", "error", "expected"),
     [
         (lambda: obstacles_of(scene(), ["door"]), UnknownNameError, "one of window"),
-        (lambda: obstacles_of(scene(), arm_points={"slave": None}), UnknownNameError, "none"),
         (
             lambda: around(hull=ConvexHull(np.vstack([np.zeros(3), np.eye(3)]))),
             InputError,

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ...kernel import kernel
 from ..assembly import make_buffers
 from ..circle import Circles, follow
-from ..closed_loop import DIVERGED, DONE, observe
+from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
 from ..settings import ControllerSettings
 from ..simulate import UNDISTURBED, checked_run, truncated
@@ -39,30 +39,29 @@ def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, noise, dist
     """
     n, arms = len(q0), len(arrays.base)
     B = make_buffers(arrays, numbers)
-    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
-    rows = np.zeros(steps, np.int64)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
     q[0] = q0
+    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     y, rate = y0.copy(), np.empty(len(y0))
     for step in range(steps + 1):
         t = step * dt
         reading = noise[step] if step < len(noise) else np.empty(0)
         pushed = disturbance[step] if step < len(disturbance) else np.zeros(len(y))
-        rows_used = state_rate(
-            arrays, numbers, network, circle, q[step], q0, t, y, reading, pushed, B, rate
-        )
+        at = q[step], q0, t, y, reading, pushed
+        rows = state_rate(arrays, numbers, network, circle, *at, B, rate)
         follow(circle, t, position, velocity)
         distance[step] = observe(B, position, error[step])
         if step == steps:
             break
-        rows[step] = rows_used
+        run.rows[step] = rows
         x[step] = y[:n]
         if not np.abs(y[:n]).max() < FASTEST:
-            return DIVERGED, step, q, x, error, distance, rows
+            return DIVERGED, step, run
         q[step + 1] = q[step] + dt * y[:n]
         y += dt * rate
-    return DONE, steps, q, x, error, distance, rows
+    return DONE, steps, run
 
 
 def simulate_network(
@@ -87,11 +86,8 @@ def simulate_network(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
-    status, taken, q, x, error, distance, rows = run_network(
-        *(system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt),
-        *(noise, disturbance),
-    )
-    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))
+    arguments = system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt
+    return truncated(dt, *run_network(*arguments, noise, disturbance))
 
 
 def divergence_time(gamma: float, dt: float) -> float:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import Field
 
-from ...settings import Positive, Settings, code
+from ...settings import Positive, Settings, numbers
 from .activation import SLOPE_AT_ZERO, Activation
 from .penalty import Penalty
 
@@ -61,8 +61,7 @@ class NetworkSettings(Settings):
     )
     feed_forward: FeedForward = FeedForward.ALL
     capped: bool = Field(
-        default=True,
-        description="a solver of fixed step limits the gain to 1 / (step Psi'(0))",
+        default=True, description="a solver of fixed step limits the gain to 1 / (step Psi'(0))"
     )
 
     def numbers(self, dt: float | None = None) -> NetworkNumbers:
@@ -70,14 +69,5 @@ class NetworkSettings(Settings):
         slope = SLOPE_AT_ZERO[self.activation]
         # Flat or vertical at zero there is no such limit; 1 / step is the linear one.
         slope = slope if 0.0 < slope < np.inf else 1.0
-        return NetworkNumbers(
-            penalty=code(self.penalty),
-            factor=self.factor,
-            sharpness=self.sharpness,
-            activation=code(self.activation),
-            gamma=self.gamma,
-            growing=self.growing,
-            hessian=self.hessian,
-            feed_forward=code(self.feed_forward),
-            cap=1.0 / (dt * slope) if dt is not None and self.capped else np.inf,
-        )
+        cap = 1.0 / (dt * slope) if dt is not None and self.capped else np.inf
+        return numbers(NetworkNumbers, self, cap=cap)

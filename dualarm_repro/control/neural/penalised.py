@@ -73,11 +73,9 @@ def lagrangian_value(p: QuadraticProgram, network: NetworkSettings, y: np.ndarra
     return objective(p, network, x) + float(y[p.size :] @ (p.A @ x - p.b))
 
 
-def lagrangian_gradient(
-    p: QuadraticProgram, network: NetworkSettings, y: np.ndarray, step: float = 1e-6
-) -> np.ndarray:
+def lagrangian_gradient(p: QuadraticProgram, network: NetworkSettings, y: np.ndarray) -> np.ndarray:
     """Derivatives of the Lagrangian by the state, by central differences of its values."""
-    return central_differences(lambda state: lagrangian_value(p, network, state), y, step)
+    return central_differences(lambda state: lagrangian_value(p, network, state), y)
 
 
 def blocks(

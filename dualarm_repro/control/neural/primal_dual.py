@@ -18,7 +18,7 @@ from ...errors import InputError
 from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
-from ..closed_loop import DIVERGED, DONE, observe
+from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
 from ..settings import ControllerSettings, RowForm
 from ..simulate import UNDISTURBED, checked_run, truncated
@@ -88,16 +88,16 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
     """Closed loop with a fixed number of iterations per tick, multipliers kept from tick to tick.
 
     ``disturbance`` (steps, n + m) is added to dx and dy of every tick, scaled by the step. One row
-    per pair. Returns what :func:`..closed_loop.run_exact` does, without the slack.
+    per pair. Returns what :func:`..closed_loop.run_exact` does, ``slack`` being zero.
     """
     n, arms = len(q0), len(arrays.base)
     m = 3 * arms
     B = make_buffers(arrays, numbers)
-    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     q, x = np.empty((steps + 1, n)), np.empty((steps, n))
     error, distance = np.empty((steps + 1, arms)), np.empty(steps + 1)
-    rows = np.zeros(steps, np.int64)
+    run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
     q[0] = q0
+    position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     kept, pair_kept = np.zeros(n + m), np.zeros(len(arrays.pairs))
     for step in range(steps + 1):
         reading = noise[step] if step < len(noise) else np.empty(0)
@@ -119,12 +119,12 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
         pair_kept[:] = 0.0
         for j in range(k):
             pair_kept[B.chosen[j]] = u[n + m + j]
-        rows[step] = k
+        run.rows[step] = k
         x[step] = u[:n]
         if not np.abs(u[:n]).max() < FASTEST:
-            return DIVERGED, step, q, x, error, distance, rows
+            return DIVERGED, step, run
         q[step + 1] = q[step] + dt * u[:n]
-    return DONE, steps, q, x, error, distance, rows
+    return DONE, steps, run
 
 
 def simulate_primal_dual(
@@ -151,7 +151,5 @@ def simulate_primal_dual(
         raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
     if iterations < 1:
         raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
-    status, taken, q, x, error, distance, rows = run_primal_dual(
-        *(system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt, noise, disturbance)
-    )
-    return truncated(status, taken, dt, q, x, error, distance, rows, np.zeros(steps))
+    arguments = system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt
+    return truncated(dt, *run_primal_dual(*arguments, noise, disturbance))

@@ -10,7 +10,7 @@ from ...arms import Arm
 from ...arms.robot_file import DHRobot, load_robot_file
 from ...datafiles import data_path
 from ...errors import UnknownNameError, UnsupportedArmError
-from ...ledger import REGISTRY
+from ...ledger.printed_values import printed_numbers
 from ...tracking import memo
 from ...welding import base_poses
 
@@ -21,18 +21,17 @@ _ORIENTATIONS = ("identity", "facing_workpiece")
 
 def printed_optimum() -> np.ndarray:
     """C as printed (3,) [m]."""
-    return np.array(REGISTRY.printed("pan.claim_optimum")["C"], dtype=float)
+    return printed_numbers("pan.claim_optimum", "C")
 
 
 def printed_bases() -> np.ndarray:
     """Positions of the three bases as printed (3, 3) [m]."""
-    printed = REGISTRY.printed("pan.claim_bases")
-    return np.array([printed[name] for name in BASES], dtype=float)
+    return printed_numbers("pan.claim_bases", *BASES)
 
 
 def printed_base_matrix() -> np.ndarray:
     """The one matrix printed for base 1 (4, 4)."""
-    return np.array(REGISTRY.printed("pan.eq_base")["matrix"], dtype=float)
+    return printed_numbers("pan.eq_base", "matrix")
 
 
 def placed_bases(reading: str, orientation: str) -> np.ndarray:

@@ -8,18 +8,15 @@ from operator import ge, gt, le, lt
 from typing import Any
 
 import numpy as np
+import sympy as sp
 
 from ...errors import DataFileError
 from ...ledger import REGISTRY
 from ...ledger.formula import parse
 
 _RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
-    "<=": le,
-    ">=": ge,
-    "<": lt,
-    ">": gt,
-    "=": np.isclose,
-}
+    "<=": le, ">=": ge, "<": lt, ">": gt, "=": np.isclose,
+}  # fmt: skip
 _NO_VALUE = (DataFileError, ValueError, TypeError, IndexError, np.linalg.LinAlgError)
 
 
@@ -121,6 +118,21 @@ def holds(text: str, given: Mapping[str, Any]) -> bool:
         bool(np.all(_RELATIONS[sign](left, right)))
         for sign, left, right in zip(parts[1::2], sides, sides[1:], strict=False)
     )
+
+
+def in_symbols(text: str, side: int = 0, **values: sp.Expr) -> sp.Expr:
+    """One side of a printed formula with its names replaced by expressions that commute.
+
+    Raises
+    ------
+    DataFileError
+        It holds another name.
+    """
+    expression = parse(text).sides[side]
+    names = {symbol: values.get(str(symbol)) for symbol in expression.free_symbols}
+    if None in names.values():
+        raise DataFileError("printed formula", "text", text, f"the names {', '.join(values)}")
+    return expression.subs(names, simultaneous=True)
 
 
 def _functions(given: Mapping[str, Any]) -> tuple[str, ...]:

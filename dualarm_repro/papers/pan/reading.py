@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ...ledger import Result
 from ...ledger.assumptions import FromAssumptions, hashable
 from ...tracking import memo
 from ...view.scene3d import Scene3D
@@ -50,6 +51,7 @@ FULL_SCALE = 0.7
 DENSER = 10
 #: Seam point at which the cell is drawn.
 SHOWN = {"first_seam_point": 0}
+_NO_SOLUTION = "No position of the region is feasible, so the problem has no solution."
 _FLOORS = {"present": 0.0, "absent": None}
 #: Answers kept: small ones of every draw, large ones of the last few.
 _SMALL, _LARGE, _CELLS = 4096, 16, 64
@@ -101,9 +103,21 @@ class Job(FlatSeam):
     torch_exemption: float
     floor: str
 
+    @memo(_CELLS)
     def cell(self) -> Cell:
         """Arms, workpiece and tools put together."""
-        return _cell(self)
+        scale, bend = self.link_radius_scale, radians(self.torch_crank)
+        pipes = self.radius_main, self.radius_branch, self.workpiece_length, self.branch_length
+        torch = Torch(self.torch_length, bend, scale * TORCH_RADIUS, self.torch_exemption)
+        return assemble(
+            [stand_in(self.arm, self.shoulder_height, scale)] * 3,
+            placed_bases(self.base_transform, self.base_orientation),
+            Workpiece(*pipes, round(self.seam_points)),
+            self.flat_posture,
+            Tools(self.grasp, self.gripper_length, scale * GRIPPER_RADIUS, torch, self.torch_axis),
+            floor=_FLOORS[self.floor],
+            threshold=self.singularity_threshold,
+        )
 
     def placement(self, objective: Objective | None = None) -> Placement:
         """Fitness of positions of this cell."""
@@ -132,6 +146,10 @@ class Measure(FromAssumptions):
             aggregation=self.aggregation,
             unit=self.length_unit,
         )
+
+
+#: The assumptions on the problem, the region aside.
+PROBLEM = (*Job.names(), *Measure.names())
 
 
 @dataclass(frozen=True)
@@ -181,29 +199,6 @@ class Problem:
     def placement(self) -> Placement:
         """Fitness of positions."""
         return self.job.placement(self.measure.reading())
-
-
-@memo(_CELLS)
-def _cell(job: Job) -> Cell:
-    scale = job.link_radius_scale
-    torch = Torch(
-        job.torch_length, radians(job.torch_crank), scale * TORCH_RADIUS, job.torch_exemption
-    )
-    return assemble(
-        [stand_in(job.arm, job.shoulder_height, scale)] * 3,
-        placed_bases(job.base_transform, job.base_orientation),
-        Workpiece(
-            job.radius_main,
-            job.radius_branch,
-            job.workpiece_length,
-            job.branch_length,
-            round(job.seam_points),
-        ),
-        job.flat_posture,
-        Tools(job.grasp, job.gripper_length, scale * GRIPPER_RADIUS, torch, job.torch_axis),
-        floor=_FLOORS[job.floor],
-        threshold=job.singularity_threshold,
-    )
 
 
 @memo(_LARGE)
@@ -299,3 +294,8 @@ def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scen
 def status_name(jobs: Jobs) -> str:
     """Outcome of the constraints at the first position, in words."""
     return Status(int(jobs.status[0])).name.lower().replace("_", " ")
+
+
+def nothing_feasible(*keys: str, told: str = _NO_SOLUTION) -> Result:
+    """The outcome where nothing is feasible, and so none of these values exist."""
+    return Result(obtained=dict.fromkeys(keys), caption=told)

@@ -10,11 +10,11 @@ import pinocchio as pin
 
 from ...arms import Arm, load_arm
 from ...arms.altered import altered
-from ...arms.robot_file import DHRobot, load_robot_file
-from ...datafiles import data_path
+from ...arms.robot_file import DHRobot
+from ...datafiles import data_path, read_yaml
 from ...errors import DataFileError
 from ...ledger import REGISTRY
-from ...ledger.formula import Formula
+from ...ledger.formula import parse
 from ...ledger.printed_values import PrintedValue, printed_numbers
 from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.tasks.elbow_branches import shoulder, straight_reach
@@ -62,9 +62,10 @@ class _Printed:
 PRINTED = _Printed()
 
 
-def value_of(formula: Formula, side: int, given: Mapping[str, Any]) -> Any:
+def printed_side(item: str, side: int, given: Mapping[str, Any], key: str = "formula") -> Any:
     """Value of one side of a printed formula; NaN where there is no such side or it holds other
     names than the code."""
+    formula = parse(REGISTRY.printed(f"qiu.{item}")[key])
     try:
         return formula.value(side, given)
     except (DataFileError, IndexError, TypeError, ValueError):
@@ -74,7 +75,8 @@ def value_of(formula: Formula, side: int, given: Mapping[str, Any]) -> Any:
 @memo()
 def robot() -> DHRobot:
     """DH table of the arm."""
-    return load_robot_file(data_path("robots", f"{ROBOT}.yaml"))
+    path = data_path("robots", f"{ROBOT}.yaml")
+    return DHRobot.checked(path, read_yaml(path))
 
 
 @memo(64)
@@ -86,26 +88,22 @@ def arm_in_use(tool: float = 0.0, radii: tuple[float, ...] | None = None) -> Arm
 
 
 def placed(
-    name: str,
-    *,
-    yaw: float | None = None,
-    base: np.ndarray | None = None,
-    tool: float = 0.0,
-    radii: tuple[float, ...] | None = None,
+    name: str, yaw: float | None = None, base: np.ndarray | None = None, arm: Arm | None = None
 ) -> PlacedArm:
-    """An arm on its printed base, or on another one, turned by ``yaw`` [deg] or as assumed."""
+    """The arm, or an altered one, on its printed base, or on another one, turned by ``yaw`` [deg]
+    or as assumed."""
     turn = REGISTRY.assumption("qiu.base_yaw") if yaw is None else yaw
     rotation = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(turn))
     origin = PRINTED.bases[name] if base is None else base
-    return PlacedArm(name, arm_in_use(tool, radii), pin.SE3(rotation, origin))
+    return PlacedArm(name, arm_in_use() if arm is None else arm, pin.SE3(rotation, origin))
 
 
 def master_arm(goal: str = "pulled_back", radii: tuple[float, ...] | None = None) -> PlacedArm:
     """The master on its base, with the change to arm or base that the reading ``goal`` of
     `master_goal` makes."""
     base = np.array([MOVED_BASE, 0.0, 0.0]) if goal == "moved_base" else None
-    tool = TOOL if goal == "longer_tool" else 0.0
-    return placed("master", base=base, tool=tool, radii=radii)
+    arm = arm_in_use(TOOL if goal == "longer_tool" else 0.0, radii)
+    return placed("master", base=base, arm=arm)
 
 
 def spheres() -> dict[str, Sphere]:
@@ -131,7 +129,7 @@ def truth_scene(arms: Sequence[PlacedArm]) -> Scene:
 @memo(8)
 def dual_scene(goal: str = "pulled_back", radii: tuple[float, ...] | None = None) -> Scene:
     """Both arms, spheres and table; the master as its goal is read, links of other radii."""
-    return truth_scene([master_arm(goal, radii), placed("slave", radii=radii)])
+    return truth_scene([master_arm(goal, radii), placed("slave", arm=arm_in_use(0.0, radii))])
 
 
 def random_task(count: int, rng: np.random.Generator) -> tuple[Scene, np.ndarray, np.ndarray]:

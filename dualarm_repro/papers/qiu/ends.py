@@ -1,21 +1,38 @@
-"""How a search from both ends of `qiu` came out, beside what is printed of its two halves."""
+"""How a search from both ends of `qiu` is judged: its halves beside print, and its path."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from ...ledger import Is, Rounds
+from ...ledger import Bounded, Is, NoOriginal, Result, Rounds
+from ...ledger.captions import Caption
 from ...ledger.rules import Rule
 from ...planning.search.search_plan import SearchPlan
+from ...view.search_curves import coordinate_figure, joint_figure
+from .document import FACE_VALUE
 
-#: How near a printed point counts as met.
-_NEAR = {
-    "tolerance": 0.016,
-    "reason": "half the way of the flange of the straight arm in one printed step",
-}
+#: How near a printed point counts as met [m].
+_NEAR, _WHY = 0.016, "half the way of the flange of the straight arm in one printed step"
 _HALVES = ("forward", "backward")
+NO_CURVES = NoOriginal("curves", "the curves")
+#: Rules for the joints of a smoothed path, and the last one for its flange.
+JOINT_RULES = [
+    Bounded("largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"),
+    NO_CURVES,
+]
+TIP_STEP = Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps")
+#: Columns of tables.
+JOINT_COLUMNS = [f"q{j}_deg" for j in range(1, 7)]
+TIP_COLUMNS = ["x_m", "y_m", "z_m"]
+
+
+def by_half(values: Iterable[Any]) -> dict[str, Any]:
+    """Two values by the half that each belongs to."""
+    return dict(zip(_HALVES, values, strict=True))
 
 
 def count_rules(joined: str) -> list[Rule]:
@@ -26,7 +43,10 @@ def count_rules(joined: str) -> list[Rule]:
 
 def meeting_rules(joined: str) -> list[Rule]:
     """Rules for the printed ends of the halves."""
-    ends = [Rounds(half, f"end of the {half} half [m]", to=half, **_NEAR) for half in _HALVES]
+    ends = [
+        Rounds(half, f"end of the {half} half [m]", to=half, tolerance=_NEAR, reason=_WHY)
+        for half in _HALVES
+    ]
     return [*ends, Is("joined", joined, value=True)]
 
 
@@ -55,10 +75,57 @@ def counted(face: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
 def met(face: dict[str, Any], other: dict[str, Any], printed: np.ndarray) -> dict[str, Any]:
     """What the rules for the ends look at, from the outcomes of both readings."""
     return {
-        **dict(zip(_HALVES, face["ends"], strict=True)),
+        **by_half(face["ends"]),
         "joined": face["reason"] == "reached",
         "gap_tip": face["gap_tip"],
         "printed_gap_tip": float(np.linalg.norm(np.subtract(*printed))),
         "distance_to_print": face["distance_to_print"],
         "reconstruction": other,
     }
+
+
+def joints_of(
+    paths: Mapping[str, np.ndarray],
+    plans: Iterable[SearchPlan],
+    told: Caption,
+    alt: str,
+    **more: Any,
+) -> Result:
+    """Joint angles on the smoothed paths (N, 6) [rad] of both readings, and what is obtained
+    ``more``; the rules look at face value."""
+    face, junctions = paths[FACE_VALUE], [plan.searches + 0.5 for plan in plans]
+    return Result(
+        obtained={
+            "largest_step": float(np.abs(np.diff(face, axis=0)).max()),
+            **more,
+            "range_deg": np.rad2deg(np.ptp(face, axis=0)).tolist(),
+        },
+        table=pd.DataFrame(np.rad2deg(face), columns=JOINT_COLUMNS),
+        caption=told,
+        alt=alt,
+        figure=lambda: joint_figure(paths, junctions),
+    )
+
+
+def coordinates_of(
+    tips: Mapping[str, np.ndarray],
+    errors: Mapping[str, float],
+    halves: np.ndarray,
+    told: Caption,
+    alt: str,
+) -> Result:
+    """Flanges (N, 3) [m] along the smoothed paths of both readings, with the printed ends of the
+    halves (2, 3) [m] and the ``errors`` of the path at its ends."""
+    tip = tips[FACE_VALUE]
+    marks = {f"printed, {half}": end for half, end in by_half(halves).items()}
+    return Result(
+        obtained={
+            **errors,
+            "largest_step": float(np.linalg.norm(np.diff(tip, axis=0), axis=1).max()),
+            "lowest": {name: float(rows[:, 2].min()) for name, rows in tips.items()},
+        },
+        table=pd.DataFrame(tip, columns=TIP_COLUMNS),
+        caption=told,
+        alt=alt,
+        figure=lambda: coordinate_figure(tips, marks, "sample of the path"),
+    )

@@ -27,15 +27,13 @@ _DIRECTIONS = 400
 @REGISTRY.proves("qiu.start_tip")
 def start_tip() -> Proof:
     """The tip at the printed joints of both arms against both printed tips."""
-    angles, gaps, beyond = PRINTED.start, {}, {}
-    for name, item, key in (
-        ("master", "claim_start", "tcp"),
-        ("slave", "claim_slave_task", "start"),
-    ):
-        printed = [read_number(text) for text in REGISTRY.printed(f"qiu.{item}")[key]]
-        gap = end_effector(placed(name), angles) - [value for value, _ in printed]
-        gaps[name] = gap.tolist()
-        beyond[name] = max(abs(g) - half for g, (_, half) in zip(gap, printed, strict=True))
+    gaps, beyond = {}, {}
+    places = {"master": ("claim_start", "tcp"), "slave": ("claim_slave_task", "start")}
+    for name, (item, key) in places.items():
+        texts = REGISTRY.printed(f"qiu.{item}")[key]
+        there, half = np.transpose([read_number(text) for text in texts])
+        gap = end_effector(placed(name), PRINTED.start) - there
+        gaps[name], beyond[name] = gap.tolist(), float(max(abs(gap) - half))
     largest = max(float(np.linalg.norm(gap)) for gap in gaps.values())
     return Proof(
         "at the printed joints both flanges miss the printed tips by more than the printed digits",
@@ -46,21 +44,14 @@ def start_tip() -> Proof:
 
 @REGISTRY.proves("qiu.goal_out_of_reach")
 def goal_out_of_reach() -> Proof:
-    """Distance of the printed goal from the shoulder against the straight arm, and by
-    optimisation.
-    """
-    distance = shoulder_to_goal()
+    """Distance of the printed goal from the shoulder against the straight arm, and by a search."""
+    distance, missing = shoulder_to_goal(), shoulder_to_goal() - reach()
     best = nearest_posture(placed("master"), PRINTED.master_goal, PRINTED.start)
     return Proof(
         "no posture brings the flange to the printed goal: the straight arm is shorter than its "
         "distance from the shoulder, and the best posture found misses it by just that much",
-        distance > reach() and abs(best.residual - (distance - reach())) < 1e-6,
-        {
-            "distance": distance,
-            "reach": reach(),
-            "shortfall": distance - reach(),
-            "found": best.residual,
-        },
+        distance > reach() and abs(best.residual - missing) < 1e-6,
+        {"distance": distance, "reach": reach(), "shortfall": missing, "found": best.residual},
     )
 
 
@@ -89,17 +80,12 @@ def singular_goal() -> Proof:
 def symmetry_axis() -> Proof:
     """Reflections of the master base in the coordinate axes and planes."""
     master, slave = PRINTED.bases.values()
-    about_x = master * [1, -1, -1]
-    in_yz = master * [-1, 1, 1]
-    shift = slave - master
+    about_x, in_yz, shift = master * [1, -1, -1], master * [-1, 1, 1], slave - master
+    mirrored = np.allclose(about_x, master) and np.allclose(in_yz, slave)
     return Proof(
         "a half turn about the X axis leaves the master base where it is; a reflection in the YZ "
         "plane, or a translation along X, carries it to the slave base",
-        bool(
-            np.allclose(about_x, master)
-            and np.allclose(in_yz, slave)
-            and np.allclose(shift[1:], 0.0)
-        ),
+        bool(mirrored and np.allclose(shift[1:], 0.0)),
         {"about_x": about_x.tolist(), "in_yz": in_yz.tolist(), "translation": shift.tolist()},
     )
 
@@ -108,7 +94,7 @@ def symmetry_axis() -> Proof:
 def base_yaw() -> Proof:
     """Distance of the tip at zero joints from the printed tip for the four quarter turns."""
     gaps = gap_by_turn()
-    order = sorted(gaps, key=gaps.get)
+    order = sorted(gaps, key=gaps.__getitem__)
     return Proof(
         "of the four quarter turns one brings the tip at zero joints ten times nearer to the "
         "printed one than any other",
@@ -128,7 +114,8 @@ def gains_against_points() -> Proof:
     reading = Traditional.nominal(gain_ratio=eta0 / PRINTED.zeta)
     made = search_problem(arm, start, start, repelling(), reading.settings())
     target = arm.placement.inverse().act(PRINTED.trap)
-    for rotation in _rotations():
+    rotations = Rotation.random(_DIRECTIONS, rng=np.random.default_rng(SEED))
+    for rotation in rotations.as_matrix():
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = rotation, target
         for q in arm.arm.ik(pose):
@@ -152,15 +139,9 @@ def gains_against_points() -> Proof:
     )
 
 
-def _rotations() -> np.ndarray:
-    return Rotation.random(_DIRECTIONS, rng=np.random.default_rng(SEED)).as_matrix()
-
-
 @REGISTRY.proves("qiu.goal_inside_range")
 def goal_inside_range() -> Proof:
-    """Distances of the printed goal from both spheres, and the class of the failed one-way
-    search.
-    """
+    """Distances of the printed goal from both spheres, and the class of the failed search."""
     gaps, plan = goal_to_surface().tolist(), Traditional.nominal().plan()
     failure = classify(plan)
     return Proof(
@@ -179,13 +160,11 @@ def control_point_frames() -> Proof:
     origins = arm.joint_positions(PRINTED.start)
     modified = origins[[2, 4, 5]]
     described = origins[np.array(CONTROL_POINTS["elbow_wrist_flange"].frames) - 1]
+    apart = [np.linalg.norm(points[1] - points[2]) for points in (modified, described)]
     return Proof(
         "with the frames of a modified table the last two control points are one point; with "
         "those of a robot description the three are distinct",
-        bool(
-            np.linalg.norm(modified[1] - modified[2]) < 1e-12
-            and np.linalg.norm(described[1] - described[2]) > 0.01
-        ),
+        bool(apart[0] < 1e-12 and apart[1] > 0.01),
         {"modified": modified.tolist(), "description": described.tolist()},
     )
 
@@ -195,24 +174,18 @@ def hull_incomplete() -> Proof:
     """How far links stick out of the hull over random postures."""
     arm = placed("master")
     q = arm.arm.random_configurations(100, np.random.default_rng(SEED))
-    sticking = protrusions(arm, q, Hull.nominal().circles())
-    always = float(sticking.max(axis=1).min())
+    most = protrusions(arm, q, Hull.nominal().circles()).max(axis=1)
+    least, median, largest = (float(of(most)) for of in (np.min, np.median, np.max))
     return Proof(
         "in every one of 100 random postures a link sticks out of the hull",
-        always > 0.0,
-        {
-            "least": always,
-            "median": float(np.median(sticking.max(axis=1))),
-            "largest": float(sticking.max()),
-        },
+        least > 0.0,
+        {"least": least, "median": median, "largest": largest},
     )
 
 
 @REGISTRY.proves("qiu.collision_scope")
 def collision_scope() -> Proof:
-    """The joint plan of both arms at face value: clear at the control points, not for whole
-    links.
-    """
+    """The plan of both arms at face value: clear at the control points, not for whole links."""
     reading = Slave.nominal()
     plan = reading.dual_plan()
     check = plan.contact(reading.scene())

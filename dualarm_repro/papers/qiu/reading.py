@@ -1,5 +1,4 @@
-"""The method of `qiu` as it is read: its assumptions as frozen settings, and its searches by
-them."""
+"""The method of `qiu` as it is read: assumptions as frozen settings, and the searches by them."""
 
 from __future__ import annotations
 
@@ -43,6 +42,8 @@ JUDGED_BY = {"planner_and_truth": "truth", "planner": "planner"}
 HULL_FRAMES = (1, 2, 3, 4, 5, 7)
 #: Share of its reach at which a posture still bends the elbow.
 _BENT = 0.9995
+#: How far the printed unit of an angle turns [rad], by the reading of it.
+ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180.0}
 #: Samples that the spline needs.
 SHORTEST = 5
 
@@ -80,6 +81,19 @@ class Reading(FromAssumptions):
         return cls.of(Chosen("qiu", cls.names(), **changes))
 
 
+def within_reach(q: np.ndarray | None) -> np.ndarray:
+    """A posture (6,) [rad] that there is.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    if q is None:
+        raise InputError("qiu", "posture", q, "a point within reach")
+    return q
+
+
 @dataclass(frozen=True)
 class Goal(Reading):
     """The goal of the master."""
@@ -100,10 +114,9 @@ class Goal(Reading):
             return _best_effort(near)
         radius = min(self.goal_radius, _BENT * wrist_reach(self.arm().arm, self.goal_wrist))
         inside = pulled_back(self.arm(), PRINTED.master_goal, radius)
-        if self.master_goal == "pulled_back":
-            return self.posture_at(inside)
-        found = self.posture_at(PRINTED.master_goal)
-        return self.posture_at(inside) if found is None else found
+        moved = self.master_goal == "pulled_back"
+        found = None if moved else self.posture_at(PRINTED.master_goal)
+        return within_reach(self.posture_at(inside)) if found is None else found
 
     def posture_at(self, point: np.ndarray) -> np.ndarray | None:
         """Posture (6,) [rad] on the branch and with the wrist at another point; None beyond
@@ -151,44 +164,29 @@ class Search(Goal):
 
     def settings(self, variant: Variant | None = None) -> BidirectionalSettings:
         """Settings of a variant whose assumptions this reading has."""
-        variant = variant or self.variant
-        points, gain, step = CONTROL_POINTS[self.control_points], {}, {"length": PRINTED.alpha0}
-        if variant.variable_gain:
-            gain = {
-                "rule": self.gain_rule,
-                "kappa": self.kappa,
-                "band": self.delta_rho,
-                "flip": self.flip_rule,
-            }
-        if variant.adaptive_step:
-            step |= {
-                "rule": self.adaptive_step,
-                "floor": self.step_floor,
-                "weights": tuple(self.weights[k] for k in points.weight_of),
-            }
-        return BidirectionalSettings(
-            attraction={
-                "gain": PRINTED.zeta,
-                "threshold": PRINTED.threshold,
-                "measure": self.attraction_form,
-            },
-            repulsion={
-                "gain": self.gain_ratio * PRINTED.zeta,
+        return BidirectionalSettings(**self.parts(variant or self.variant))
+
+    def parts(self, variant: Variant) -> dict[str, Any]:
+        """Those settings by their names."""
+        points, zeta = CONTROL_POINTS[self.control_points], PRINTED.zeta
+        attraction = {"gain": zeta, "threshold": PRINTED.threshold, "measure": self.attraction_form}
+        return {
+            "attraction": attraction,
+            "repulsion": {
+                "gain": self.gain_ratio * zeta,
                 "influence": PRINTED.influence,
                 "sources": self.repulsion_sources,
             },
-            control_points=points.frames,
-            radii=points.radii,
-            variable_gain=gain,
-            step=step,
-            two_sided=variant.two_sided,
-            order=self.update_order if variant.two_sided else "before",
-            ending={
+            "control_points": points.frames,
+            "radii": points.radii,
+            "step": {"length": PRINTED.alpha0},
+            "two_sided": variant.two_sided,
+            "ending": {
                 "tolerance": self.joint_tolerance,
                 "search_limit": round(self.search_cap),
                 "stuck_searches": round(self.stuck_rule),
             },
-        )
+        }
 
     def plan(self) -> SearchPlan:
         """The master from its start to its goal."""
@@ -227,13 +225,21 @@ class Traditional(Search):
 
 
 @dataclass(frozen=True)
-class Gain(Reading):
-    """The variable repulsive gain."""
+class Gain(Search):
+    """A search whose repulsive gain may vary."""
 
     gain_rule: str
     kappa: float
     delta_rho: float
     flip_rule: str
+
+    def parts(self, variant: Variant) -> dict[str, Any]:
+        """Those of any search, and the variable gain."""
+        parts = super().parts(variant)
+        if variant.variable_gain:
+            of = {"rule": self.gain_rule, "kappa": self.kappa, "band": self.delta_rho}
+            parts["variable_gain"] = of | {"flip": self.flip_rule}
+        return parts
 
 
 @dataclass(frozen=True)
@@ -244,7 +250,7 @@ class VariableGain(Traditional, Gain):
 
 
 @dataclass(frozen=True)
-class Improved(Search, Gain):
+class Improved(Gain):
     """The search from both ends with all improvements."""
 
     adaptive_step: str
@@ -253,6 +259,17 @@ class Improved(Search, Gain):
     update_order: str
 
     variant: ClassVar[Variant] = IMPROVED
+
+    def parts(self, variant: Variant) -> dict[str, Any]:
+        """Those of any search, and what the improvements add."""
+        parts = super().parts(variant)
+        if variant.adaptive_step:
+            weights = [self.weights[k] for k in CONTROL_POINTS[self.control_points].weight_of]
+            parts["step"] |= {"rule": self.adaptive_step, "floor": self.step_floor}
+            parts["step"]["weights"] = tuple(weights)
+        if variant.two_sided:
+            parts["order"] = self.update_order
+        return parts
 
 
 @dataclass(frozen=True)
@@ -305,8 +322,8 @@ class SlaveGoal(Reading):
 
     def slave_postures(self) -> dict[str, np.ndarray]:
         """The postures (6,) [rad] that take the slave to its printed goal, by branch."""
-        arm, point = placed("slave"), PRINTED.slave_goal
-        return {branch: branch_posture(arm, point, branch, self.goal_wrist) for branch in BRANCHES}
+        ends = placed("slave"), PRINTED.slave_goal
+        return {b: within_reach(branch_posture(*ends, b, self.goal_wrist)) for b in BRANCHES}
 
     def slave_posture(self) -> np.ndarray:
         """The one on the assumed branch (6,) [rad]."""
@@ -360,5 +377,5 @@ def balance_ratio() -> float:
     Wrist angles are zero. It is a scale taken from one printed point, and no balance of forces.
     """
     arm = placed("master")
-    q = branch_posture(arm, PRINTED.trap, "front_shallow")
+    q = within_reach(branch_posture(arm, PRINTED.trap, "front_shallow"))
     return balance_gain(arm, q, repelling(), PRINTED.threshold, PRINTED.influence)

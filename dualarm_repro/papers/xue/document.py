@@ -11,9 +11,9 @@ import pinocchio as pin
 from ...arms import Arm, load_arm
 from ...arms.angle import Angle
 from ...arms.reach import largest_reach
-from ...arms.robot_file import DHRobot, load_robot_file
-from ...arms.tool_postures import tool_posture
-from ...datafiles import data_path
+from ...arms.robot_file import DHRobot
+from ...arms.tool_postures import ToolRule, tool_posture
+from ...datafiles import data_path, read_yaml
 from ...ledger import REGISTRY
 from ...ledger.assumptions import FromAssumptions
 from ...ledger.printed import read_number
@@ -29,7 +29,7 @@ LENGTHS = {"a1": ("a", 1), "a2": ("a", 2), "a3": ("a", 3),
            "d1": ("d", 0), "d4": ("d", 3), "d6": ("d", 5)}  # fmt: skip
 #: Limits of joints other than in the file of the robot. The two public sources differ in axis U;
 #: in the document's zero, q3 = -U, so that -142.5 to 230 deg of the long-arm variant are these.
-_LIMITS = {
+_LIMITS: dict[str, dict[int, tuple[str, str]]] = {
     "bast165": {},
     "arte165": {2: ("-230 deg", "142.5 deg")},
     "full_turns": dict.fromkeys(range(6), ("-180 deg", "180 deg")),
@@ -39,6 +39,11 @@ _LIMITS = {
 def assumption(name: str) -> Any:
     """The value of an assumption of the document."""
     return REGISTRY.assumption(f"xue.{name}")
+
+
+def assumptions(*names: str) -> dict[str, Any]:
+    """The values of some of them."""
+    return {name: assumption(name) for name in names}
 
 
 @memo()
@@ -95,7 +100,8 @@ def workspace_points() -> int:
 
 def robot(reading: str) -> DHRobot:
     """DH table of a reading."""
-    return load_robot_file(data_path("robots", f"{READINGS[reading]}.yaml"))
+    path = data_path("robots", f"{READINGS[reading]}.yaml")
+    return DHRobot.checked(path, read_yaml(path))
 
 
 def lengths(reading: str) -> dict[str, float]:
@@ -155,7 +161,7 @@ class Layout(FromAssumptions):
     window_opening_height: float
     window_bar: float
     slave_frame: str
-    slave_postures: str
+    slave_postures: ToolRule
 
     @property
     def master_base(self) -> np.ndarray:
@@ -199,23 +205,30 @@ class Layout(FromAssumptions):
         return self.frame_origin + slave_start(), self.frame_origin + slave_end()
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Posed(PlacedArm):
+    """An arm on its base, with a start and a goal [rad]."""
+
+    start: np.ndarray
+    goal: np.ndarray
+
+
 @memo(512)
-def placed_master(layout: Layout) -> PlacedArm:
+def placed_master(layout: Layout) -> Posed:
     """The master on its base, with the printed start and goal."""
-    placement = pin.SE3(np.eye(3), layout.master_base)
-    ends = master_start(), master_goal()
-    return PlacedArm("master", arms_of(layout.dh_source)[0], placement, *ends)
+    arm, placement = arms_of(layout.dh_source)[0], pin.SE3(np.eye(3), layout.master_base)
+    return Posed("master", arm, placement, start=master_start(), goal=master_goal())
 
 
 @memo(512)
-def placed_slave(layout: Layout) -> PlacedArm | None:
+def placed_slave(layout: Layout) -> Posed | None:
     """The slave on its base, with postures at Start and End; None where one is out of reach."""
     arm, base = arms_of(layout.dh_source)[1], layout.slave_base
     points = layout.slave_points()
     start, goal = (tool_posture(arm, point - base, layout.slave_postures) for point in points)
     if start is None or goal is None:
         return None
-    return PlacedArm("slave", arm, pin.SE3(np.eye(3), base), start, goal)
+    return Posed("slave", arm, pin.SE3(np.eye(3), base), start=start, goal=goal)
 
 
 def scene_of(layout: Layout, floor: float | None = None) -> Scene:

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ...arms import load_arm
-from ...arms.exact_chain import same_function
 from ...ledger import REGISTRY, Proof, evaluate
-from ...planning.field.control_points import end_effector
 from ...planning.trials.stuck import STATIONARY
-from . import document
-from .motions import (
-    cores_of,
-    largest_radius,
-    master_undisturbed,
-    replay_of,
-    slave_plan,
-    smallest_cores,
-)
+from . import document, motions
 from .outcomes import TRIALS, VARIANTS, run_variants, starts
 from .pages.kinematics import printed_chain as chain
-from .pages.kinematics.chain import symbolic_poses
+from .pages.kinematics.chain import flanges
 from .pages.potentials.improved import rest_slope, term_scaling
 from .pages.potentials.traditional import attractive_force_forms
 from .pages.truth import RADII
@@ -31,16 +23,7 @@ from .stored import ablation_shares, clear_share, minima_shares, virtual_point_c
 @REGISTRY.proves("xue.eq01_angle")
 def eq01_angle() -> Proof:
     """Substituting the parameters into (1) as printed and corrected."""
-    literal = [
-        k + 1
-        for k in chain.LINKS
-        if same_function(chain.substituted(k, corrected=False), chain.link_matrix(k))
-    ]
-    corrected = [
-        k + 1
-        for k in chain.LINKS
-        if same_function(chain.substituted(k, corrected=True), chain.link_matrix(k))
-    ]
+    literal, corrected = (chain.matrices_given(corrected=given) for given in (False, True))
     return Proof(
         "only with the twist angle does (1) reproduce every matrix (2)-(7)",
         len(corrected) == len(chain.LINKS) > len(literal),
@@ -53,19 +36,17 @@ def table1_shift() -> Proof:
     """Column a of the table against the matrices, and what the two readings differ by."""
     column = chain.table_parameters()["a"]
     matrices = chain.printed_parameters()["a"]
-    ends = {
-        pose: _difference(q)
-        for pose, q in (("start", document.master_start()), ("goal", document.master_goal()))
-    }
+    start, goal = (
+        float(np.linalg.norm(np.subtract(*flanges(q))))
+        for q in (document.master_start(), document.master_goal())
+    )
     return Proof(
         "the printed column equals that of the matrices moved up one row; the readings agree at "
         "the start, where only the sum of the lengths counts, and not at the goal",
-        column == [*matrices[1:], 0.0]
-        and column != matrices
-        and ends["start"] < 1e-12 < ends["goal"],
+        column == [*matrices[1:], 0.0] and column != matrices and start < 1e-12 < goal,
         {
-            "flange_difference_start": ends["start"],
-            "flange_difference_goal": ends["goal"],
+            "flange_difference_start": start,
+            "flange_difference_goal": goal,
             "reach_matrices": document.reach("matrices"),
             "reach_table": document.reach("table"),
         },
@@ -76,12 +57,10 @@ def table1_shift() -> Proof:
 def table1_unit() -> Proof:
     """Lengths read as metres are those of the published robot; as millimetres nothing is."""
     printed, published = chain.printed_lengths(), document.lengths("published")
-    metres = [
-        name for name in chain.SHARED if np.isclose(printed[name], published[name], atol=1e-12)
-    ]
-    millimetres = [
-        name for name in chain.SHARED if np.isclose(1e-3 * printed[name], published[name])
-    ]
+    metres, millimetres = (
+        [k for k in chain.SHARED if np.isclose(unit * printed[k], published[k], atol=1e-12)]
+        for unit in (1.0, 1e-3)
+    )
     return Proof(
         "read as metres, a1, a3, d4 and d6 are those of the published robot; read as millimetres, "
         "as headed, none is, and the arm would reach a few millimetres",
@@ -123,20 +102,15 @@ def base_height() -> Proof:
 def start_outside_limits() -> Proof:
     """The printed start against the ranges of the real robot, mapped to the document's zero."""
     arm = load_arm("es165d")
-    excess = np.rad2deg(document.master_start() - arm.upper)
+    start, goal, limit = document.master_start()[1], document.master_goal()[1], arm.upper[1]
     return Proof(
         "axis L is beyond its range at the printed start and within it at the printed goal",
-        bool(excess[1] > 0 and document.master_goal()[1] < arm.upper[1]),
+        bool(start > limit > goal),
         {
-            "axis_L_at_start_deg": float(90 + np.rad2deg(document.master_start()[1])),
-            "beyond_range_deg": float(excess[1]),
+            "axis_L_at_start_deg": float(90 + np.rad2deg(start)),
+            "beyond_range_deg": float(np.rad2deg(start - limit)),
         },
     )
-
-
-def _difference(q: np.ndarray) -> float:
-    matrices = symbolic_poses(q[np.newaxis])[0]
-    return float(np.linalg.norm(matrices[:3, 3] - chain.table_pose(q)[:3, 3]))
 
 
 @REGISTRY.proves("xue.force_modulus")
@@ -175,10 +149,14 @@ def eq13_minima() -> Proof:
     )
 
 
+def _obtained(item: str) -> dict[str, Any]:
+    return motions.present(evaluate(REGISTRY, f"xue.{item}").result, item).obtained
+
+
 @REGISTRY.proves("xue.slave_goal_angles")
 def slave_goal_angles() -> Proof:
     """Calls of inverse kinematics that the goal of the slave costs."""
-    values = evaluate(REGISTRY, "xue.claim_no_ik").result.obtained
+    values = _obtained("claim_no_ik")
     return Proof(
         "(13) cannot be evaluated for the slave before inverse kinematics has been called for its "
         "goal",
@@ -191,9 +169,9 @@ def slave_goal_angles() -> Proof:
 def virtual_term_absent() -> Proof:
     """A term of the form (9) that always acts keeps the arm off its goal."""
     case = nominal()
-    layout = case.layout
-    share = document.gains()["k_w"] / (document.gains()["k_w"] + document.gains()["k_a"])
-    offset = share * float(np.linalg.norm(document.slave_end() - layout.window_centre))
+    gains = document.gains()
+    share = gains["k_w"] / (gains["k_w"] + gains["k_a"])
+    offset = share * float(np.linalg.norm(document.slave_end() - case.layout.window_centre))
     return Proof(
         "with the term always on, the end effector would rest on the line from goal to virtual "
         "point, so that a rule for switching it off is needed",
@@ -205,11 +183,10 @@ def virtual_term_absent() -> Proof:
 @REGISTRY.proves("xue.virtual_point_credit")
 def virtual_point_credit() -> Proof:
     """Runs of the improved method with and without its virtual point, same starts."""
-    shares = ablation_shares()
+    shares, counts = ablation_shares(), virtual_point_counts()
     with_point, without = (
         shares[VARIANTS[name].title]["nominal"].value for name in ("improved", "without_virtual")
     )
-    counts = virtual_point_counts()
     return Proof(
         "in the arrangement shown the improved method misses as rarely without the virtual point, "
         "so that the joint term frees the arm; over random arrangements the point saves few of "
@@ -222,7 +199,7 @@ def virtual_point_credit() -> Proof:
 @REGISTRY.proves("xue.stop_at_zero")
 def stop_at_zero() -> Proof:
     """Where a trapped run stands still the potential is positive."""
-    obtained = evaluate(REGISTRY, "xue.claim_stop_zero").result.obtained
+    obtained = _obtained("claim_stop_zero")
     return Proof(
         "where a run stands still short of the goal the gradient vanishes, not the potential",
         obtained["at_trap"] > obtained["off_goal"] > 0.0 and obtained["gradient"] < STATIONARY,
@@ -263,30 +240,31 @@ def deterministic_trials() -> Proof:
 def tool_only() -> Proof:
     """Arrangements in which the end effectors are clear and links are not."""
     case = nominal()
-    cores = cores_of(replay_of(case, slave_plan(case)), case.layout)
+    replay = motions.replay_of(case, motions.slave_plan(case))
+    cores = motions.cores_of(motions.present(replay, "two motions"), case.layout)
     shares = {f"clear at {radius:g} m": clear_share(radius).value for radius in RADII}
     return Proof(
         "there are arrangements in which both end effectors do what the figures show while links "
         "of a tenth of a metre touch window or arm",
         clear_share(0.10).high < 1.0,
-        {**shares, "nominal_touches_at": largest_radius(smallest_cores(cores))},
+        {**shares, "nominal_touches_at": motions.largest_radius(motions.smallest_cores(cores))},
     )
 
 
 @REGISTRY.proves("xue.layout_conflict")
 def layout_conflict() -> Proof:
     """Synchronous distance of the master's undisturbed track and the straight slave line."""
-    case = nominal()
-    master = master_undisturbed(case.layout, case.planner)
-    track = end_effector(document.placed_master(case.layout), master.path) - case.layout.master_base
+    case, start, end = nominal(), document.slave_start(), document.slave_end()
+    base = case.layout.master_base
+    track = motions.master_undisturbed(case.layout, case.planner).tcp - base
     share = np.minimum(np.arange(len(track)) / 100.0, 1.0)[:, np.newaxis]
-    line = document.slave_start() + share * (document.slave_end() - document.slave_start())
+    line = start + share * (end - start)
     sideways = [
         float(np.linalg.norm(track + np.array([0.0, offset, 0.0]) - line, axis=1).min())
         for offset in np.linspace(-4.0, 4.0, 801)
     ]
-    farthest = REGISTRY.declared("xue.meeting_distance", "range").range[1]
-    anywhere = float(np.linalg.norm(track + case.layout.master_base - line, axis=1).min())
+    _, farthest = motions.present(REGISTRY.declared("xue.meeting_distance", "range").range, "range")
+    anywhere = float(np.linalg.norm(track + base - line, axis=1).min())
     return Proof(
         "a base moved sideways only never brings the two end effectors together at one instant; "
         "one moved in three directions does",

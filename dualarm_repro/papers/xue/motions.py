@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 
+from ...errors import InputError
 from ...planning.descent.compiled import plan_apf_compiled
 from ...planning.field.control_points import control_points
 from ...planning.field.obstacles import Obstacles, obstacles_of
 from ...planning.master_slave import at_tool_speed
 from ...planning.plan import Plan
+from ...planning.settings import PointSet
 from ...planning.trials.encounter import to_obstacles
 from ...planning.trials.link_cores import LinkCores, link_cores
 from ...planning.trials.replay import Replay
 from ...planning.trials.runs import attempt
-from ...scene import JointPath, PlacedArm, Scene
+from ...scene import JointPath, Scene
 from ...tracking import memo
-from .document import Layout, placed_master, placed_slave, scene_of
+from .document import Layout, Posed, placed_master, placed_slave, scene_of
 from .reading import Case, PlannerChoice, attraction_only, improved
 
 #: Largest joint step between two looks at whole links [rad].
@@ -26,6 +30,20 @@ PAIRS = {
     "master_window": ("master", "window"),
     "arms": ("master", "slave"),
 }
+_T = TypeVar("_T")
+
+
+def present(found: _T | None, name: str) -> _T:
+    """What an arrangement is known to hold.
+
+    Raises
+    ------
+    InputError
+        It does not.
+    """
+    if found is None:
+        raise InputError("arrangement", name, None, "one that has it")
+    return found
 
 
 @memo(512)
@@ -49,7 +67,7 @@ def slave_undisturbed(layout: Layout, planner: PlannerChoice) -> Plan | None:
     return None if placed is None else _undisturbed(placed, planner)
 
 
-def _undisturbed(placed: PlacedArm, planner: PlannerChoice) -> Plan:
+def _undisturbed(placed: Posed, planner: PlannerChoice) -> Plan:
     nothing = obstacles_of(Scene([placed]))
     return plan_apf_compiled(placed, placed.start, placed.goal, nothing, attraction_only(planner))
 
@@ -82,13 +100,24 @@ def slave_obstacles(case: Case) -> Obstacles | None:
     return window_obstacles(case.layout).with_arm(master, points, track)
 
 
+def slave_task(case: Case) -> tuple[Posed, Obstacles]:
+    """The slave between its ends, and what its planner is to avoid.
+
+    Raises
+    ------
+    InputError
+        An end is out of reach, or there is no motion of the master.
+    """
+    placed = present(placed_slave(case.layout), "slave")
+    return placed, present(slave_obstacles(case), "motion of the master")
+
+
 @memo(512)
 def slave_plan(case: Case) -> Plan | None:
     """Figs 10 and 11: the slave past window and moving master by the improved method."""
-    obstacles = slave_obstacles(case)
-    if obstacles is None:
+    if slave_obstacles(case) is None:
         return None
-    placed = placed_slave(case.layout)
+    placed, obstacles = slave_task(case)
     settings = improved(case.planner, case.layout.window_centre, placed.goal)
     return attempt(placed, placed.start, obstacles, settings)
 
@@ -99,7 +128,7 @@ def window_obstacles(layout: Layout) -> Obstacles:
     return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))
 
 
-def points_to_window(plan: Plan, layout: Layout, points: str = "end_effector") -> np.ndarray:
+def points_to_window(plan: Plan, layout: Layout, points: PointSet = "end_effector") -> np.ndarray:
     """Signed distance of the nearest control point to the nearest bar, (N,) [m]."""
     return to_obstacles(plan, points, window_obstacles(layout)).min(axis=1)
 

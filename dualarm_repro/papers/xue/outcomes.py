@@ -18,9 +18,8 @@ from ...planning.descent.problem import PlanningProblem, problem
 from ...planning.settings import APFSettings
 from ...planning.trials.outcome import Outcome, outcome
 from ...planning.trials.runs import Runs, run_trials
-from .document import placed_slave
-from .motions import slave_obstacles
-from .reading import Case, improved, joint_term_only, traditional
+from .motions import slave_task
+from .reading import Case, improved, traditional
 
 TRIALS = 10
 
@@ -33,14 +32,15 @@ class Variant(NamedTuple):
 
     def problem(self, case: Case) -> PlanningProblem:
         """The problem of the slave with this planner."""
-        placed = placed_slave(case.layout)
-        ends = (placed.start, placed.goal)
-        return problem(placed, *ends, slave_obstacles(case), self.settings(case))
+        placed, obstacles = slave_task(case)
+        return problem(placed, placed.start, placed.goal, obstacles, self.settings(case))
 
 
-def _improved(case: Case, *, virtual: bool = True, **changed: str) -> APFSettings:
-    planner, goal = replace(case.planner, **changed), placed_slave(case.layout).goal
-    return improved(planner, case.layout.window_centre, goal, virtual=virtual)
+def _improved(case: Case, switching: str | None = None, **parts: Any) -> APFSettings:
+    planner, goal = case.planner, slave_task(case)[0].goal
+    if switching is not None:
+        planner = replace(planner, virtual_switching=switching)
+    return improved(planner, case.layout.window_centre, goal, **parts)
 
 
 #: What may free the arm, one part at a time. The first two are the methods of Table 2.
@@ -58,19 +58,15 @@ VARIANTS: dict[str, Variant] = {
         lambda case: traditional(case.planner, "end_effector", case.layout.window_centre),
     ),
     "joint_term": Variant(
-        "joint term alone, no virtual point", lambda case: joint_term_only(case.planner)
+        "joint term alone, no virtual point", partial(_improved, virtual=False, position_weight=0.0)
     ),
     "replaces_goal": Variant(
-        "(13)-(16), virtual point replaces the goal",
-        partial(_improved, virtual_switching="replaces_goal"),
+        "(13)-(16), virtual point replaces the goal", partial(_improved, switching="replaces_goal")
     ),
     "from_start": Variant(
-        "(13)-(16), virtual point from the start",
-        partial(_improved, virtual_switching="from_start"),
+        "(13)-(16), virtual point from the start", partial(_improved, switching="from_start")
     ),
-    "always": Variant(
-        "(13)-(16), virtual point always", partial(_improved, virtual_switching="always")
-    ),
+    "always": Variant("(13)-(16), virtual point always", partial(_improved, switching="always")),
 }
 
 
@@ -101,7 +97,7 @@ def variant_of(method: str) -> str:
 
 def starts(case: Case, half_width: float, count: int, rng: np.random.Generator) -> np.ndarray:
     """Start angles of the slave, uniformly perturbed, (count, 6) [rad]."""
-    return perturbed(placed_slave(case.layout).start, half_width, count, rng)
+    return perturbed(slave_task(case)[0].start, half_width, count, rng)
 
 
 def outcomes(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[str, Any]:
@@ -134,8 +130,8 @@ def run_variants(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[st
 
 def run_variant(case: Case, name: str, begin: np.ndarray) -> Runs:
     """Runs of one planner."""
-    settings = VARIANTS[name].settings(case)
-    return run_trials(placed_slave(case.layout), begin, slave_obstacles(case), settings)
+    placed, obstacles = slave_task(case)
+    return run_trials(placed, begin, obstacles, VARIANTS[name].settings(case))
 
 
 def summary(case: Case, name: str, runs: Runs) -> Outcome:

@@ -13,13 +13,14 @@ from ...planning.settings import (
     APFSettings,
     Attraction,
     Combination,
+    PointSet,
     Repulsion,
     Termination,
     Trap,
     Update,
     VirtualPoint,
 )
-from .document import Layout, assumption, gains
+from .document import Layout, assumptions, gains
 
 POSITION_TOLERANCE = 0.02  # [m] of the traditional method, which has no goal angles
 COMBINATIONS = {"sum_over_bars": Combination.SUM, "nearest_bar": Combination.NEAREST}
@@ -35,7 +36,7 @@ _STALL = 1e-6
 class PlannerChoice(FromAssumptions):
     """Settings of a planner that the document leaves open; each is the assumption of that name."""
 
-    control_points: str
+    control_points: PointSet
     window_distance: str
     update_rule: str
     step_gain: float
@@ -54,13 +55,8 @@ class PlannerChoice(FromAssumptions):
     def settings(self, attraction: Attraction, *, joints: bool = True, **parts: Any) -> APFSettings:
         """A planner that ends at the goal angles, or at the goal position, with further parts."""
         gain = self.step_gain if self.update_rule == "gradient" else None
-        stalled = self.stuck_rule == "potential_stall"
-        trap = Trap(
-            rule=self.stuck_rule,
-            steps=BLOCK,
-            threshold=_STALL if stalled else self.stuck_threshold,
-            after_obstacles_rest=True,
-        )
+        least = _STALL if self.stuck_rule == "potential_stall" else self.stuck_threshold
+        trap = Trap(rule=self.stuck_rule, steps=BLOCK, threshold=least, after_obstacles_rest=True)
         return APFSettings(
             attraction=attraction,
             update=Update(rule=self.update_rule, max_step=self.max_step, gain=gain),
@@ -80,8 +76,7 @@ class PlannerChoice(FromAssumptions):
 
     def repulsion(self) -> Repulsion:
         """(10) and (14) with the printed k_r and d_0."""
-        combination = COMBINATIONS[self.window_distance]
-        printed = gains()
+        printed, combination = gains(), COMBINATIONS[self.window_distance]
         return Repulsion(gain=printed["k_r"], influence=printed["d_0"], combination=combination)
 
     def virtual_point(self, centre: np.ndarray, joints: np.ndarray) -> VirtualPoint:
@@ -99,23 +94,19 @@ class PlannerChoice(FromAssumptions):
 
 
 def improved(
-    planner: PlannerChoice, centre: np.ndarray, goal: np.ndarray, *, virtual: bool = True
+    planner: PlannerChoice,
+    centre: np.ndarray,
+    goal: np.ndarray,
+    *,
+    virtual: bool = True,
+    position_weight: float = 1.0,
 ) -> APFSettings:
-    """(13)-(16) with the virtual point at ``centre``, or without it."""
+    """(13)-(16) with the virtual point at ``centre``; it and the position term can be left out."""
     return planner.settings(
-        planner.attraction(joint_weight=planner.joint_term_weight),
+        planner.attraction(position_weight=position_weight, joint_weight=planner.joint_term_weight),
         control_points=planner.control_points,
         repulsion=planner.repulsion(),
         virtual_point=planner.virtual_point(centre, goal) if virtual else None,
-    )
-
-
-def joint_term_only(planner: PlannerChoice) -> APFSettings:
-    """(13) without its position term, with (14)-(16) and no virtual point."""
-    return planner.settings(
-        planner.attraction(position_weight=0.0, joint_weight=planner.joint_term_weight),
-        control_points=planner.control_points,
-        repulsion=planner.repulsion(),
     )
 
 
@@ -165,7 +156,7 @@ class Case(NamedTuple):
     @classmethod
     def of(cls, assumed: Mapping[str, Any]) -> Self:
         """The case that the assumptions describe."""
-        return cls(*(part.of(assumed) for part in (Layout, PlannerChoice, Encounter)))
+        return cls(Layout.of(assumed), PlannerChoice.of(assumed), Encounter.of(assumed))
 
 
 #: The assumptions that a case reads.
@@ -176,6 +167,6 @@ _PLACES = ("master_base_", "base_distance", "window_centre", "window_normal", "w
 KEPT = tuple(name for name in CASE if not name.startswith(_PLACES))
 
 
-def nominal() -> Case:
-    """The case of the assumptions as they stand."""
-    return Case.of({name: assumption(name) for name in CASE})
+def nominal(**changed: Any) -> Case:
+    """The case of the assumptions as they stand, but for those that are given."""
+    return Case.of({**assumptions(*CASE), **changed})

@@ -16,7 +16,7 @@ from .motions import PAIRS
 from .outcomes import VARIANTS, variant_of
 from .studies.ablation import ABLATION, NAMED
 from .studies.comparison import COMPARISON
-from .studies.lottery import LOTTERY
+from .studies.lottery import LOTTERY, lottery_table
 from .studies.minima import MINIMA
 from .studies.trials import REPEATED
 
@@ -30,15 +30,8 @@ def mean_with_interval(values: np.ndarray) -> dict[str, float | int]:
     The sample of arrangements is large, so that its mean is close to normal.
     """
     values = np.asarray(values, dtype=float)
-    mean = float(values.mean())
-    half = float(_Z * values.std(ddof=1) / np.sqrt(len(values)))
+    mean, half = float(values.mean()), float(_Z * values.std(ddof=1) / np.sqrt(len(values)))
     return {"value": mean, "low": mean - half, "high": mean + half, "of": len(values)}
-
-
-@memo()
-def lottery_table() -> pd.DataFrame:
-    """One row per random arrangement in which Fig. 9 holds."""
-    return LOTTERY.load()
 
 
 def missed(method: str) -> np.ndarray:
@@ -76,8 +69,8 @@ def lottery_shares(reading: str) -> dict[str, Share]:
 
 def choice(index: int, verdict: str, **judged: Any) -> dict[str, Any]:
     """An arrangement of the lottery as a witness: its values and what was seen there."""
-    row = lottery_table().loc[index]
-    values = {name: _plain(row[name]) for name in Layout.names()}
+    row = lottery_table().loc[index, list(Layout.names())]
+    values = {k: v.item() if isinstance(v, np.generic) else v for k, v in row.items()}
     where = f"arrangement {index} of {LOTTERY.name}"
     return {"choice": where, "verdict": verdict, "values": values, "judged": judged}
 
@@ -92,14 +85,13 @@ def is_declared(table: pd.DataFrame) -> np.ndarray:
     return inside
 
 
-def _plain(found: Any) -> Any:
-    return found.item() if isinstance(found, np.generic) else found
+def _share(rows: pd.DataFrame, method: str, part: str, whole: str) -> Share:
+    return Share.of(rows[f"{method}_{part}"].sum(), rows[f"{method}_{whole}"].sum())
 
 
-def held_share(method: str = "traditional") -> Share:
+def held_share(method: str) -> Share:
     """Share of the runs that stand still which stay after small pushes too."""
-    table = lottery_table()
-    return Share.of(table[f"{method}_held"].sum(), table[f"{method}_trapped"].sum())
+    return _share(lottery_table(), method, "held", "trapped")
 
 
 @memo()
@@ -137,13 +129,10 @@ def clear_share(radius: float, *pairs: str) -> Share:
 @memo()
 def repeated_shares() -> Mapping[str, Mapping[str, Share]]:
     """Share of trials in the nominal arrangement that miss, by rule of the step and method."""
-    table = REPEATED.load()
+    methods = ("traditional", "improved", "without_virtual")
     return {
-        rule: {
-            method: Share.of(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
-            for method in ("traditional", "improved", "without_virtual")
-        }
-        for rule, rows in table.groupby("update_rule", sort=False)
+        rule: {method: _share(rows, method, "missed", "runs") for method in methods}
+        for rule, rows in REPEATED.load().groupby("update_rule", sort=False)
     }
 
 
@@ -154,10 +143,7 @@ def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
     groups = {"random arrangements": table[~table["layout"].isin(NAMED)]}
     groups |= {name: table[table["layout"] == name] for name in NAMED}
     return {
-        variant.title: {
-            group: Share.of(rows[f"{method}_missed"].sum(), rows[f"{method}_runs"].sum())
-            for group, rows in groups.items()
-        }
+        variant.title: {k: _share(rows, method, "missed", "runs") for k, rows in groups.items()}
         for method, variant in VARIANTS.items()
     }
 
@@ -169,9 +155,7 @@ def minima_shares() -> dict[float, Share]:
     return {float(weight): Share.of(row.minima, row.pairs) for weight, row in table.iterrows()}
 
 
-def virtual_point_counts() -> dict[str, Any]:
+def virtual_point_counts() -> dict[str, int]:
     """Over the lottery: trials in which the virtual point acted, and in which it saved the run."""
     table = lottery_table()
-    runs = int(table["improved_runs"].sum())
-    used, rescued = int(table["improved_used"].sum()), int(table["improved_rescued"].sum())
-    return {"runs": runs, "used": used, "rescued": rescued}
+    return {name: int(table[f"improved_{name}"].sum()) for name in ("runs", "used", "rescued")}

@@ -52,10 +52,7 @@ def contact_check(scene: Scene, path: np.ndarray, max_step: float = SAMPLING) ->
     for pair, distance in zip(scene.pairs.bodies, smallest.tolist(), strict=True):
         group = _group(scene, *pair)
         clearance[group] = min(distance, clearance.get(group, np.inf))
-    lower, upper = (
-        np.concatenate([getattr(placed.arm, side) for placed in scene.arms])
-        for side in ("lower", "upper")
-    )
+    lower, upper = scene.limits
     excess = np.maximum(lower - path, path - upper).max()
     return ContactCheck(clearance, max(float(excess), 0.0))
 

@@ -5,19 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from ...scene import PlacedArm
-from ...scene.posing import link_frames, links_of, place_cores
-from ..field.control_points import base_of
+from ...scene.posing import links_of
+from ..field.control_points import ends_of
 from ..field.hull_obstacle import JointCircles, circles_on, hull_track
 
 
 def link_cores(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
     """Ends of the cores of the links in the world for configurations (N, nq), (N, links, 2, 3)
     [m]."""
-    links = links_of(placed.arm)
-    frames = link_frames(placed.arm.chain, base_of(placed), q)
-    ends = np.empty((len(q), len(links.radius), 2, 3))
-    place_cores(frames, links.joint, links.local, ends)
-    return ends
+    return ends_of(placed, links_of(placed.arm), q)
 
 
 def protrusions(placed: PlacedArm, q: np.ndarray, circles: JointCircles) -> np.ndarray:

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ...instrument import Instrument
 from ...scene import PlacedArm
 from ...scene.points import point_capsule
 from ...scene.posing import links_of
 from ..field.hull_obstacle import HullTrack, hull_track, point_hull
 from .hull_cover import link_cores
-from .operations import operations
 
 _AWAY = 0.5  # of a point from the middle of the hull [m]
 
@@ -24,20 +24,17 @@ def query_operations(
     """Mean operations of the distance of a point to the hull, and to all capsules of the arm.
 
     One point for each of the configurations (N, nq), to which the first rows of ``track`` belong,
-    half a metre from the middle of the hull; see :mod:`.operations` for what is counted.
+    half a metre from the middle of the hull; see :mod:`...instrument` for what is counted.
     """
     radii, hulls, capsules = links_of(placed.arm).radius, [], []
+    cost = Instrument().cost
     for k, cores in enumerate(link_cores(placed, q)):
         planes, triangles = distinct_faces(track, k)
         direction = rng.normal(size=3)
         point = tuple(triangles.mean(axis=(0, 1)) + _AWAY * direction / np.linalg.norm(direction))
-        hulls.append(operations(point_hull, point, planes, triangles))
-        capsules.append(
-            sum(
-                operations(point_capsule, point, tuple(a), tuple(b - a), float(radius))
-                for (a, b), radius in zip(cores, radii, strict=True)
-            )
-        )
+        hulls.append(cost(point_hull, point, planes, triangles).operations)
+        links = [(tuple(a), tuple(b - a), float(r)) for (a, b), r in zip(cores, radii, strict=True)]
+        capsules.append(sum(cost(point_capsule, point, *link).operations for link in links))
     return float(np.mean(hulls)), float(np.mean(capsules))
 
 

@@ -6,8 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..field.joint_attraction import conic_force
-from ..search.bidirectional import repulsive_torque, surroundings_at
+from ..search.bidirectional import resultant_at, surroundings_at
 from ..search.search_plan import SearchPlan
 
 #: Gains of the control points (K,) from the factors (K,) and the initial gain.
@@ -26,16 +25,13 @@ def step_difference(
     both = len(plan.record.paths) > 1
     other = plan.record.paths[1 - side] if both else np.tile(made.goal, (len(half), 1))
     late = int(side == 1 and made.settings.order == "after")
-    attraction, worst = made.settings.attraction, 0.0
+    worst = 0.0
     for k in range(plan.searches):
-        found = surroundings_at(made, side, half[k], k)
-        pull = conic_force(
-            half[k], other[k + late], attraction.gain, attraction.threshold, attraction.measure
-        )
         chosen = gains(plan.record.factors[side][k], made.settings.repulsion.gain)
         if np.shape(chosen) != np.shape(plan.record.factors[side][k]):
             return float("inf")
-        force = pull + repulsive_torque(made, found, chosen)
+        found = surroundings_at(made, side, half[k], k)
+        force = resultant_at(made, found, half[k], other[k + late], chosen)
         step = half[k + 1] - half[k]
         expected = np.linalg.norm(step) * force / np.linalg.norm(force)
         worst = max(worst, float(np.abs(step - expected).max()))

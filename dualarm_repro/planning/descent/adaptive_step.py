@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from ...kernel import kernel
 from ...settings import code
-from ..search.bidirectional_settings import StepRule
+from ..settings import StepRule
 
 _CONSTANT, _SATURATING, _PLAIN = map(
     code, (StepRule.CONSTANT, StepRule.SATURATING, StepRule.PLAIN_DISTANCE)

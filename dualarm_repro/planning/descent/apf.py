@@ -11,9 +11,9 @@ from ...scene.bodies import PlacedArm
 from ...settings import code
 from ..field.control_points import end_effector
 from ..field.obstacles import Obstacles
-from ..plan import Plan
+from ..plan import Plan, Record
 from ..settings import APFSettings
-from .outcome import Record, finished
+from .outcome import finished
 from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within
 from .updates import next_configuration
@@ -72,22 +72,13 @@ def descend(made: PlanningProblem) -> Record:
         rows.append(_terms(made, q, step, state.active))
         if reason is not None:
             break
-        field, update = made.field_in(state), made.settings.update
-        path[step + 1] = next_configuration(field, q, step, update, *made.limits)
+        at = q, step, made.settings.update, made.limits
+        path[step + 1] = next_configuration(made.field_in(state), *at)
         step += 1
     attractive, repulsive, virtual, clearance, active = map(np.array, zip(*rows, strict=True))
-    return Record(
-        path[: step + 1].copy(),
-        attractive,
-        repulsive,
-        virtual,
-        clearance,
-        active,
-        reason,
-        state.activations,
-        state.arrivals,
-        perf_counter() - began,
-    )
+    looks = path[: step + 1].copy(), attractive, repulsive, virtual, clearance, active
+    counts = state.activations, state.arrivals
+    return Record(*looks, reason, *counts, perf_counter() - began)
 
 
 def _terms(made: PlanningProblem, q: np.ndarray, step: int, active: bool) -> tuple[ArrayLike, ...]:

@@ -72,16 +72,8 @@ def plan_batch(
     require_clear(made, starts)
     last, numbers = np.empty_like(starts), np.empty((len(starts), 4), dtype=np.int64)
     measures = np.empty((len(starts), 2))
-    _run_all(
-        field_of(made),
-        rules_of(made),
-        made.switch_rules,
-        starts,
-        empty_rows(made),
-        last,
-        numbers,
-        measures,
-    )
+    given = field_of(made), rules_of(made), made.switch_rules, starts, empty_rows(made)
+    _run_all(*given, last, numbers, measures)
     codes, steps, activations, arrivals = numbers.T
     clearance, gradient_norm = measures.T
     ended = [list(StopReason)[number] for number in codes]

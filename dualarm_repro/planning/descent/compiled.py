@@ -14,9 +14,9 @@ from ...scene.vectors import dot, minus, vector
 from ...settings import code
 from ..field.field_kernels import evaluate, field_of, total_of, workspace
 from ..field.obstacles import Obstacles
-from ..plan import Plan
+from ..plan import Plan, Record
 from ..settings import APFSettings
-from .outcome import Record, finished
+from .outcome import finished
 from .problem import PlanningProblem, problem
 from .termination import StopReason, is_stuck, within
 from .update_kernels import move
@@ -84,19 +84,9 @@ def descend_compiled(made: PlanningProblem) -> Record:
     began = perf_counter()
     rows = empty_rows(made)
     end = run(field_of(made), rules_of(made), made.switch_rules, made.start, rows)
-    kept = Rows(*(part[: end.steps + 1].copy() for part in rows))
-    return Record(
-        kept.path,
-        kept.attractive,
-        kept.repulsive,
-        kept.virtual,
-        kept.clearance,
-        kept.active,
-        list(StopReason)[end.reason],
-        end.activations,
-        end.arrivals,
-        perf_counter() - began,
-    )
+    kept = Rows(*(part[: end.steps + 1].copy() for part in rows))[:-1]  # without the potential
+    counts = end.activations, end.arrivals
+    return Record(*kept, list(StopReason)[end.reason], *counts, perf_counter() - began)
 
 
 def rules_of(made: PlanningProblem) -> Rules:

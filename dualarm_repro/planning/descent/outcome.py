@@ -2,34 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...arms import Arm
-from ..plan import Plan
+from ..plan import Plan, Record
 from ..settings import Switching
 from .certificate import certify
 from .problem import PlanningProblem
 from .termination import StopReason, within
 
 _IN_A_TRAP = (Switching.ON_WHEN_STUCK, Switching.REPLACES_GOAL)
-
-
-@dataclass(frozen=True, eq=False)
-class Record:
-    """Rows of :class:`.plan.Plan`, how the loop ended, and its time [s]."""
-
-    path: np.ndarray
-    attractive: np.ndarray
-    repulsive: np.ndarray
-    virtual: np.ndarray
-    clearance: np.ndarray
-    active: np.ndarray
-    reason: StopReason
-    activations: int
-    arrivals: int
-    wall_time: float
 
 
 def finished(made: PlanningProblem, record: Record) -> Plan:

@@ -95,10 +95,7 @@ class PlanningProblem:
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits a step may not leave; infinite unless they are enforced."""
-        arm = self.placed.arm
-        if self.settings.enforce_limits:
-            return arm.lower, arm.upper
-        return np.full(arm.nq, -np.inf), np.full(arm.nq, np.inf)
+        return self.placed.arm.limits(self.settings.enforce_limits)
 
     def errors(self, q: np.ndarray) -> tuple[float, float]:
         """max_j |q_j - q_gj| [rad] and |X - X_g| [m]."""
@@ -127,16 +124,13 @@ def problem(
     InputError
         At the start a control point touches or is inside an obstacle; control points the arm lacks.
     """
-    arm, point = placed.arm, settings.virtual_point
-    start, goal = (_configuration(placed, *pair) for pair in (("start", start), ("goal", goal)))
+    point = settings.virtual_point
+    ends = checked_ends(placed, start, goal, settings.enforce_limits)
     if point is not None and point.joints is not None:
         _configuration(placed, "virtual_point.joints", point.joints)
-    for field, q in (("start", start), ("goal", goal)):
-        if settings.enforce_limits and not arm.within_limits(q):
-            raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
-    points = control_points(arm, settings.control_points, settings.weights)
-    made = PlanningProblem(placed, start, goal, obstacles, settings, points)
-    require_clear(made, start[np.newaxis])
+    points = control_points(placed.arm, settings.control_points, settings.weights)
+    made = PlanningProblem(placed, *ends, obstacles, settings, points)
+    require_clear(made, made.start[np.newaxis])
     return made
 
 
@@ -155,6 +149,18 @@ def require_clear(made: PlanningProblem, starts: np.ndarray) -> None:
             f"not at a distance of {distance[n, k, m]:.4g} m"
         )
         raise InputError(f"arm {made.placed.name}", "start", starts[n].tolist(), expected)
+
+
+def checked_ends(
+    placed: PlacedArm, start: ArrayLike, goal: ArrayLike, within_limits: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Start and goal (nq,) as float64 arrays of their own; ConfigurationError where one is wrong,
+    or has to be and is not within the limits."""
+    ends = _configuration(placed, "start", start), _configuration(placed, "goal", goal)
+    for field, q in zip(("start", "goal"), ends, strict=True):
+        if within_limits and not placed.arm.within_limits(q):
+            raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
+    return ends
 
 
 def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Joint steps: how a potential moves an arm. One step per call, readable form.
 
-Results stay within ``lower`` and ``upper``, which are infinite unless limits are enforced.
+Results stay within the limits (lower, upper), which are infinite unless they are enforced.
 """
 
 from __future__ import annotations
@@ -19,15 +19,11 @@ TIE = 1e-12
 ROUNDING = 1e-12
 #: Order of the changes of one joint; staying comes first.
 CHANGES = (0.0, -1.0, 1.0)
+Limits = tuple[np.ndarray, np.ndarray]
 
 
 def next_configuration(
-    potential: Potential,
-    q: np.ndarray,
-    step: int,
-    update: Update,
-    lower: np.ndarray,
-    upper: np.ndarray,
+    potential: Potential, q: np.ndarray, step: int, update: Update, limits: Limits
 ) -> np.ndarray:
     """The configuration after one step by the rule of ``update``, (nq,)."""
     rule = {
@@ -35,16 +31,11 @@ def next_configuration(
         UpdateRule.FIXED_LENGTH: fixed_length_step,
         UpdateRule.NEIGHBOUR_SEARCH: neighbour_step,
     }[update.rule]
-    return rule(potential, q, step, update, lower, upper)
+    return rule(potential, q, step, update, limits)
 
 
 def gradient_step(
-    potential: Potential,
-    q: np.ndarray,
-    step: int,
-    update: Update,
-    lower: np.ndarray,
-    upper: np.ndarray,
+    potential: Potential, q: np.ndarray, step: int, update: Update, limits: Limits
 ) -> np.ndarray:
     """q - t g, t = min(eta, delta/|g|), halved until U falls by a share of what g predicts.
 
@@ -61,7 +52,7 @@ def gradient_step(
     t = min(update.gain, update.max_step / length)
     here = float(potential.value(q, step))
     for _ in range(update.max_halvings + 1):
-        trial = np.clip(q - t * g, lower, upper)
+        trial = np.clip(q - t * g, *limits)
         predicted = g @ (trial - q)
         if -predicted <= ROUNDING * here:
             break
@@ -72,30 +63,20 @@ def gradient_step(
 
 
 def fixed_length_step(
-    potential: Potential,
-    q: np.ndarray,
-    step: int,
-    update: Update,
-    lower: np.ndarray,
-    upper: np.ndarray,
+    potential: Potential, q: np.ndarray, step: int, update: Update, limits: Limits
 ) -> np.ndarray:
     """q - delta g/|g|; around a minimum it chatters with this length."""
     g = potential.gradient(q, step)
     length = np.linalg.norm(g)
-    return q if length == 0.0 else np.clip(q - update.max_step / length * g, lower, upper)
+    return q if length == 0.0 else np.clip(q - update.max_step / length * g, *limits)
 
 
 def neighbour_step(
-    potential: Potential,
-    q: np.ndarray,
-    step: int,
-    update: Update,
-    lower: np.ndarray,
-    upper: np.ndarray,
+    potential: Potential, q: np.ndarray, step: int, update: Update, limits: Limits
 ) -> np.ndarray:
     """argmin of U over the 3^nq neighbours q + delta {0, -1, 1}^nq."""
     offsets = update.max_step * np.array(list(product(CHANGES, repeat=len(q))))
-    neighbours = np.clip(q + offsets, lower, upper)
+    neighbours = np.clip(q + offsets, *limits)
     values = np.asarray(potential.value(neighbours, step))
     best = 0
     for k, value in enumerate(values):

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ...arms import Arm
 from ...errors import InputError, UnknownNameError
 from ...scene.bodies import PlacedArm
-from ...scene.posing import link_frames, links_of, place_cores
+from ...scene.posing import Links, cores_in, link_frames, links_of
 from ..settings import PointSet
 
 
@@ -90,12 +90,14 @@ def control_points(
     return ControlPoints(names, joint[order], local[order], radii[order], weight[order])
 
 
-def ends_of(placed: PlacedArm, points: ControlPoints, q: np.ndarray) -> np.ndarray:
+def ends_of(placed: PlacedArm, points: ControlPoints | Links, q: np.ndarray) -> np.ndarray:
     """Ends of the cores in the world for configurations (N, nq), (N, K, 2, 3) [m]."""
-    frames = link_frames(placed.arm.chain, base_of(placed), q)
-    ends = np.empty((len(q), len(points.joint), 2, 3))
-    place_cores(frames, points.joint, points.local, ends)
-    return ends
+    return cores_in(frames_of(placed, q), points.joint, points.local)
+
+
+def frames_of(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
+    """Frames of base and joints in the world for configurations (N, nq), (N, nq + 1, 3, 4)."""
+    return link_frames(placed.arm.chain, base_of(placed), q)
 
 
 def base_of(placed: PlacedArm) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...differences import central_differences
-from ..search.bidirectional_settings import Threshold
+from ..settings import Threshold
 from .joint_attraction import conic_force, conic_potential
 from .repulsive_force import inverse_distance_force, inverse_distance_potential
 

@@ -12,11 +12,12 @@ import numpy as np
 from ...arms.kernels import Chain
 from ...kernel import kernel
 from ...scene.posing import link_frames
-from ...scene.vectors import cross, dot, minus, out_of_frame, scaled, vector
+from ...scene.vectors import dot, minus, out_of_frame, scaled, vector
 from ..descent.problem import PlanningProblem
 from ..settings import Combination
 from .control_points import base_of
 from .nearest_kernels import nearest_shapes, witness
+from .repulsive_force import add_torque
 
 
 class Field(NamedTuple):
@@ -227,22 +228,13 @@ def gradient(field, q, step, attracts, work):
                 shapes = (cores[row], core_radius, boxes[row], half, field.planes)
                 point, outward = witness(field.local[k], frames[joint], *shapes, number)
                 slope = barrier(gain, influence, contact, distance[k, g])[1]
-                _push(frames, joint, point, scaled(field.weight[k] * slope, outward), out)
+                add_torque(frames, joint, point, scaled(field.weight[k] * slope, outward), out)
     X = flange(field, frames[-1])
     if attracts[0]:
         pull = scaled(field.position_gain, minus(X, vector(field.goal_point)))
-        _push(frames, len(q), X, pull, out)
+        add_torque(frames, len(q), X, pull, out)
         out += field.joint_gain * (q - field.goal)
     if attracts[1]:
         pull = scaled(field.virtual_position_gain, minus(X, vector(field.virtual_point)))
-        _push(frames, len(q), X, pull, out)
+        add_torque(frames, len(q), X, pull, out)
         out += field.virtual_joint_gain * (q - field.virtual_joints)
-
-
-@kernel
-def _push(frames, joints, p, force, gradient):
-    """gradient_j += force . (z_j x (p - o_j)) for the joints that carry p."""
-    for j in range(joints):
-        F = frames[j + 1]
-        lever = p[0] - F[0, 3], p[1] - F[1, 3], p[2] - F[2, 3]
-        gradient[j] += dot(force, cross((F[0, 2], F[1, 2], F[2, 2]), lever))

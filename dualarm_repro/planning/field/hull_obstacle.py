@@ -10,9 +10,8 @@ from scipy import spatial
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.hull import circle_points
-from ...scene.posing import link_frames
 from ...scene.vectors import along, dot, minus, scaled, vector
-from .control_points import base_of
+from .control_points import frames_of
 
 FAR = np.inf
 
@@ -52,7 +51,7 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
     centres = np.where(at_flange, arm.chain.translation[-1], 0.0)
     axes = np.eye(3)[[0 if circles.containing_axis else 2] * len(number)]
     local = circle_points(centres, axes, circles.radii, circles.per_circle)
-    frames = link_frames(arm.chain, base_of(placed), q)[:, np.repeat(carrier, circles.per_circle)]
+    frames = frames_of(placed, q)[:, np.repeat(carrier, circles.per_circle)]
     return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...kernel import kernel
 from ...settings import code
-from ..search.bidirectional_settings import Threshold
+from ..settings import Threshold
 
 _NORM = code(Threshold.NORM)
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...errors import InputError, UnknownNameError
-from ...scene import JointPath, MovingArm, PlacedArm, Scene
+from ...scene import JointPath, PlacedArm, Scene
 from ...scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
 from ...scene.pairs import SORTS
 from ...scene.placement import place
@@ -110,44 +110,31 @@ class Obstacles:
         return np.concatenate(distances, axis=2), witness[..., 0, :], -witness[..., 2, :]
 
 
-def obstacles_of(
-    scene: Scene,
-    leave_out: Collection[str] = (),
-    arm_points: Mapping[str, ControlPoints] | None = None,
-) -> Obstacles:
+def obstacles_of(scene: Scene, leave_out: Collection[str] = ()) -> Obstacles:
     """Everything in a scene that stands or moves by itself; its controlled arms are no obstacles.
 
-    The bars of a window, or the capsules of a moving arm, form one obstacle each.
+    The bars of a window, or the capsules of a moving arm, form one obstacle each. All are taken
+    over the steps until the last has come to rest.
 
     Parameters
     ----------
     leave_out : names
         Obstacles the planner is not told about, e.g. ``floor``.
-    arm_points : mapping of moving arm to control points, optional
-        Points that stand for an arm instead of its capsules, each an obstacle of its own.
 
     Raises
     ------
     UnknownNameError
-        A name that no obstacle of the scene, or no moving arm, has.
+        A name that no obstacle of the scene has.
     InputError
         A convex hull.
     """
-    points = arm_points or {}
-    movers = {name: mover for name, mover in scene.moving.items() if isinstance(mover, MovingArm)}
-    owners = list(dict.fromkeys(body.owner for body in scene.bodies.all))
-    owners = [owner for owner in owners if owner not in scene.columns]
-    _require("leave_out", leave_out, owners)
-    _require("arm_points", points, movers)
-    found = _shapes(scene, [owner for owner in owners if owner not in (*leave_out, *points)])
-    for name, chosen in points.items():
-        placed = PlacedArm(name, movers[name].arm, movers[name].placement)
-        found = found.with_arm(placed, chosen, movers[name].path)
-    return found
-
-
-def _shapes(scene: Scene, owners: list[str]) -> Obstacles:
-    """The bodies of some obstacles over the steps until the last has come to rest."""
+    known = list(dict.fromkeys(body.owner for body in scene.bodies.all))
+    known = [owner for owner in known if owner not in scene.columns]
+    for name in leave_out:
+        if name not in known:
+            expected = f"one of {', '.join(known) or 'none there are'}"
+            raise UnknownNameError("obstacles_of", "leave_out", name, expected)
+    owners = [owner for owner in known if owner not in leave_out]
     bodies = [body for body in scene.bodies.all if body.owner in owners]
     sorted_by = {sort: [body for body in bodies if body.sort == sort] for sort in SORTS}
     for body in sorted_by.pop("hull"):
@@ -167,13 +154,6 @@ def _shapes(scene: Scene, owners: list[str]) -> Obstacles:
         scene.bodies.half[boxes],
         scene.bodies.planes[planes],
     )
-
-
-def _require(field: str, names: Iterable[str], known: Collection[str]) -> None:
-    for name in names:
-        if name not in known:
-            expected = f"one of {', '.join(known) or 'none there are'}"
-            raise UnknownNameError("obstacles_of", field, name, expected)
 
 
 def _pairs(points: int, shapes: int, offset: int = 0) -> np.ndarray:

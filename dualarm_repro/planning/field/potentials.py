@@ -12,9 +12,9 @@ from typing import Generic, Protocol, TypeVar
 import numpy as np
 
 from ...scene.bodies import PlacedArm
-from ...scene.posing import link_frames, place_cores
+from ...scene.posing import cores_in
 from ..settings import Combination
-from .control_points import ControlPoints, base_of, end_effector, ends_of
+from .control_points import ControlPoints, end_effector, ends_of, frames_of
 from .obstacles import Obstacles
 
 
@@ -126,9 +126,8 @@ class PointRepulsion:
 
     def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
-        frames = link_frames(self.placed.arm.chain, base_of(self.placed), q[np.newaxis])
-        ends = np.empty((1, len(self.points.joint), 2, 3))
-        place_cores(frames, self.points.joint, self.points.local, ends)
+        frames = frames_of(self.placed, q[np.newaxis])
+        ends = cores_in(frames, self.points.joint, self.points.local)
         found = self.obstacles.distances(ends, self.points.radius, step)
         distance, point, outward = (part[0] for part in found)
         axes, origins = frames[0, 1:, :, 2], frames[0, 1:, :, 3]

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from ...kernel import kernel
 from ...settings import code
-from ..search.bidirectional_settings import FlipRule, GainRule
+from ..settings import FlipRule, GainRule
 
 _CONSTANT, _POWER, _RAMP = map(code, (GainRule.CONSTANT, GainRule.POWER, GainRule.RAMP))
 _NEGATIVE = code(FlipRule.NEGATIVE)

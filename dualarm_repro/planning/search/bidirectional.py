@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...scene.bodies import PlacedArm
-from ...scene.posing import link_frames, place_cores
+from ...scene.posing import cores_in
 from ...settings import code
 from ..descent.adaptive_step import step_length
 from ..descent.termination import StopReason
-from ..field.control_points import base_of
+from ..field.control_points import frames_of
 from ..field.hull_obstacle import HullTrack, hull_distance
 from ..field.joint_attraction import conic_force
 from ..field.obstacles import Obstacles
@@ -112,26 +112,16 @@ class _Half:
 
     def resultant(self, target: np.ndarray, turn: int) -> np.ndarray:
         """F_att + F_rep at the end of the half, whose distances and gain factors are noted."""
-        made, gain, repulsion = (
-            self._made,
-            self._made.settings.variable_gain,
-            self._made.settings.repulsion,
-        )
+        made, gain = self._made, self._made.settings.variable_gain
         found = surroundings_at(made, self._side, self.path[-1], turn)
         rho = found.distance.min(axis=1, initial=np.inf)
-        factor = np.array(
-            [
-                gain_factor(code(gain.rule), gain.kappa, gain.band, r, at, self.flips)
-                for r, at in zip(rho, self._flip_distance, strict=True)
-            ]
-        )
+        rule = code(gain.rule), gain.kappa, gain.band
+        known = zip(rho, self._flip_distance, strict=True)
+        factor = np.array([gain_factor(*rule, r, at, self.flips) for r, at in known])
         self.clearance.append(rho)
         self.factor.append(factor)
-        attraction = made.settings.attraction
-        force = conic_force(
-            self.path[-1], target, attraction.gain, attraction.threshold, attraction.measure
-        )
-        return force + repulsive_torque(made, found, factor * repulsion.gain)
+        gains = factor * made.settings.repulsion.gain
+        return resultant_at(made, found, self.path[-1], target, gains)
 
     def move(self, force: np.ndarray) -> None:
         """One step along the resultant, after a look for a flip."""
@@ -144,14 +134,9 @@ class _Half:
             self.flips += 1
             self._flip_distance = self.clearance[-1]
         self._direction = direction
+        rule, influence = (code(step.rule), step.length), made.settings.repulsion.influence
         length = step_length(
-            code(step.rule),
-            step.length,
-            step.floor,
-            step.cap,
-            made.weights,
-            self.clearance[-1],
-            made.settings.repulsion.influence,
+            *rule, step.floor, step.cap, made.weights, self.clearance[-1], influence
         )
         self.path.append(np.clip(self.path[-1] + length * direction, *made.limits))
 
@@ -176,21 +161,28 @@ class Surroundings:
 
 def surroundings_at(made: SearchProblem, side: int, q: np.ndarray, turn: int) -> Surroundings:
     """What is around the control points of one half at a search."""
-    frames = link_frames(made.placed.arm.chain, base_of(made.placed), q[np.newaxis])
-    ends = np.empty((1, len(made.points.joint), 2, 3))
-    place_cores(frames, made.points.joint, made.points.local, ends)
-    distance, _, outward = (
-        part[0] for part in made.obstacles.distances(ends, made.points.radius, 0)
-    )
+    frames = frames_of(made.placed, q[np.newaxis])
+    ends = cores_in(frames, made.points.joint, made.points.local)
+    seen = made.obstacles.distances(ends, made.points.radius, 0)
+    distance, _, outward = (part[0] for part in seen)
     points, hulls = ends[0, :, 0], made.hulls[side]
     if len(hulls.planes):
         row = min(turn, len(hulls.planes) - 1)
-        seen = [hull_distance(point, hulls.planes[row], hulls.triangles[row]) for point in points]
-        gap = np.array([d for d, _ in seen]) - made.points.radius
-        away = np.array([direction for _, direction in seen])
+        found = [hull_distance(point, hulls.planes[row], hulls.triangles[row]) for point in points]
+        gap = np.array([d for d, _ in found]) - made.points.radius
+        away = np.array([direction for _, direction in found])
         distance = np.column_stack([distance, gap])
         outward = np.concatenate([outward, away[:, np.newaxis]], axis=1)
     return Surroundings(distance, outward, points, frames[0])
+
+
+def resultant_at(
+    made: SearchProblem, found: Surroundings, q: np.ndarray, target: np.ndarray, gains: np.ndarray
+) -> np.ndarray:
+    """F_att + F_rep (nq,) towards ``target``, with the gain eta_i of each control point (K,)."""
+    pull = made.settings.attraction
+    force = conic_force(q, target, pull.gain, pull.threshold, pull.measure)
+    return force + repulsive_torque(made, found, gains)
 
 
 def repulsive_torque(made: SearchProblem, found: Surroundings, gains: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
 from ...scene.posing import link_frames
-from ...scene.vectors import dot, minus, rotated, scaled, vector
+from ...scene.vectors import dot, minus, out_of_frame, scaled, vector
 from ...settings import code
 from ..descent.adaptive_step import step_length
 from ..descent.termination import StopReason
@@ -230,7 +230,7 @@ def resultant(field, rules, hulls, side, turn, target, rows, memory, around, for
     row = min(turn, len(hulls.planes) - 1)
     for k in range(len(field.joint)):
         joint = field.joint[k]
-        point = placed_point(frames[joint], field.local[k])
+        point = out_of_frame(frames[joint], vector(field.local[k]))
         nearest = distances(field, hulls, row, k, point, around)
         rho = around[nearest, 0] if nearest >= 0 else np.inf
         factor = gain_factor(
@@ -249,13 +249,6 @@ def resultant(field, rules, hulls, side, turn, target, rows, memory, around, for
                     around[m, 0], factor * field.eta, field.influence, field.contact
                 )
                 add_torque(frames, joint, point, scaled(strength, vector(around[m, 1:])), force)
-
-
-@kernel
-def placed_point(frame, local):
-    """A point of a link in the world."""
-    x, y, z = rotated(frame, vector(local))
-    return x + frame[0, 3], y + frame[1, 3], z + frame[2, 3]
 
 
 @kernel

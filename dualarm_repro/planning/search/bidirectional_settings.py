@@ -4,54 +4,24 @@ name.
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
 from ...settings import Positive, Settings
-from ..settings import Combination, Count, PointSet, Share
+from ..settings import (
+    Combination,
+    Count,
+    FlipRule,
+    GainRule,
+    PointSet,
+    Share,
+    StepRule,
+    Threshold,
+    UpdateOrder,
+)
 
 Factor = Annotated[float, Field(gt=0, le=1)]
-
-
-class Threshold(StrEnum):
-    """What is compared with the threshold where the attraction turns from quadratic to conic."""
-
-    NORM = "norm"
-    PER_JOINT = "per_joint"
-
-
-class GainRule(StrEnum):
-    """Factor of the repulsive gain near the distance where the resultant has flipped."""
-
-    CONSTANT = "constant"
-    POWER = "power"
-    RAMP = "ramp"
-    PROPORTIONAL = "proportional"
-
-
-class FlipRule(StrEnum):
-    """Which cosine between successive resultants counts as a flip."""
-
-    NEGATIVE = "negative"
-    BELOW_MINUS_HALF = "below_minus_half"
-
-
-class StepRule(StrEnum):
-    """How the length of a step follows the distances of the control points."""
-
-    CONSTANT = "constant"
-    SATURATING = "saturating"
-    PLAIN_DISTANCE = "plain_distance"
-    RELATIVE = "relative"
-
-
-class UpdateOrder(StrEnum):
-    """Whether the backward half aims at the forward end from before or after its step."""
-
-    BEFORE = "before"
-    AFTER = "after"
 
 
 class ConicAttraction(Settings):

@@ -38,11 +38,7 @@ class SampledPlan:
 
 
 def plan_rrt_connect(
-    scene: Scene,
-    start: ArrayLike,
-    goal: ArrayLike,
-    seed: int,
-    max_checks: int = 20_000,
+    scene: Scene, start: ArrayLike, goal: ArrayLike, seed: int, max_checks: int = 20_000
 ) -> SampledPlan:
     """Path of all controlled arms of a scene without contact, from ``start`` to ``goal`` [rad].
 
@@ -63,13 +59,9 @@ def plan_rrt_connect(
     util.setLogLevel(util.LOG_NONE)
     util.RNG.setSeed(int(seed) + 1)
     space, bounds = base.RealVectorStateSpace(scene.nq), base.RealVectorBounds(scene.nq)
-    lower, upper = (
-        np.concatenate([getattr(placed.arm, side) for placed in scene.arms])
-        for side in ("lower", "upper")
-    )
-    for j in range(scene.nq):
-        bounds.setLow(j, float(lower[j]))
-        bounds.setHigh(j, float(upper[j]))
+    for j, (lower, upper) in enumerate(zip(*scene.limits, strict=True)):
+        bounds.setLow(j, float(lower))
+        bounds.setHigh(j, float(upper))
     space.setBounds(bounds)
     checks = 0
 

@@ -86,16 +86,9 @@ class SearchPlan(ArmPath):
     def to_frame(self) -> pd.DataFrame:
         """One row per sample of the path: half, search, joints q1 ... [rad], flange x, y, z [m],
         and per control point the distance [m] and the gain factor."""
-        parts = []
-        for half, (path, tcp, clearance, factor) in enumerate(
-            zip(
-                self.record.paths,
-                self.half_tcp,
-                self.record.clearances,
-                self.record.factors,
-                strict=True,
-            )
-        ):
+        parts, seen = [], (self.record.clearances, self.record.factors)
+        halves = zip(self.record.paths, self.half_tcp, *seen, strict=True)
+        for half, (path, tcp, clearance, factor) in enumerate(halves):
             columns = {"half": ("forward", "backward")[half], "search": np.arange(len(path))}
             columns |= {f"q{j + 1}": angle for j, angle in enumerate(path.T)}
             columns |= dict(zip("xyz", tcp.T, strict=True))

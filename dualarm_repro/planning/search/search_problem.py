@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConfigurationError, InputError
+from ...errors import InputError
 from ...scene.bodies import PlacedArm
+from ..descent.problem import checked_ends
 from ..field.control_points import ControlPoints, control_points
 from ..field.hull_obstacle import NO_HULL, HullTrack
 from ..field.obstacles import Obstacles
@@ -38,10 +39,7 @@ class SearchProblem:
     @cached_property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits a step may not leave; infinite unless they are enforced."""
-        arm = self.placed.arm
-        if self.settings.enforce_limits:
-            return arm.lower, arm.upper
-        return np.full(arm.nq, -np.inf), np.full(arm.nq, np.inf)
+        return self.placed.arm.limits(self.settings.enforce_limits)
 
 
 def search_problem(
@@ -62,12 +60,8 @@ def search_problem(
         Control points the arm lacks, radii or weights that do not match them, an obstacle that
         moves by itself, or links instead of points.
     """
-    arm = placed.arm
-    start, goal = (_configuration(placed, *pair) for pair in (("start", start), ("goal", goal)))
-    for field, q in (("start", start), ("goal", goal)):
-        if settings.enforce_limits and not arm.within_limits(q):
-            raise ConfigurationError(f"arm {placed.name}", field, q, "a value within the limits")
-    points = control_points(arm, settings.control_points)
+    ends = checked_ends(placed, start, goal, settings.enforce_limits)
+    points = control_points(placed.arm, settings.control_points)
     counted = {"radii": settings.radii, "step.weights": settings.step.weights}
     for field, values in counted.items():
         if values is not None and len(values) != len(points.joint):
@@ -81,15 +75,4 @@ def search_problem(
         named = settings.control_points
         raise InputError("search_problem", "control_points", named, "points, not links")
     hulls = (NO_HULL, NO_HULL) if hulls is None else hulls
-    return SearchProblem(placed, start, goal, obstacles, settings, points, hulls)
-
-
-def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:
-    expected = f"{placed.arm.nq} finite numbers [rad]"
-    try:
-        checked = placed.arm.configurations(q)
-    except ConfigurationError as error:
-        raise ConfigurationError(f"arm {placed.name}", field, error.value, expected) from None
-    if checked.ndim != 1:
-        raise ConfigurationError(f"arm {placed.name}", field, checked.shape, expected)
-    return checked.copy()
+    return SearchProblem(placed, *ends, obstacles, settings, points, hulls)

@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arms.poses import homogeneous
 from ...errors import InputError
 from ...scene import PlacedArm, facing
 from ...scene.quantities import unit3, vector3
@@ -27,7 +28,6 @@ def posture(
     elbow: Elbow | None = None,
     last_joint: float = 0.0,
     reference: ArrayLike | None = None,
-    within_limits: bool = False,
 ) -> np.ndarray:
     """q with X(q) = position and the axis of the last joint along ``tool``, for a spherical wrist.
 
@@ -53,21 +53,17 @@ def posture(
     Raises
     ------
     InputError
-        Out of reach, by how much; or within reach, but not with this tool direction or limits.
+        Out of reach, by how much; or within reach, but not with this tool direction.
     UnsupportedArmError
         The arm has no closed form.
     """
     target = vector3(f"arm {placed.name}", "position", position)
     near = np.zeros(placed.arm.nq) if reference is None else placed.arm.configurations(reference)
-    T = np.eye(4)
     axis = _direction(placed, target, tool)
     upright = facing(axis, _UP if abs(axis[2]) < 0.9 else _AHEAD)
-    T[:3, :3] = upright @ placed.arm.chain.rotation[-1]
-    T[:3, 3] = target
-    pose = placed.placement.inverse().homogeneous @ T
-    branches = placed.arm.ik_branches(
-        pose[np.newaxis], reference=near, within_limits=within_limits
-    )[0]
+    flange = homogeneous(upright @ placed.arm.chain.rotation[-1], target)
+    pose = placed.placement.inverse().homogeneous @ flange
+    branches = placed.arm.ik_branches(pose[np.newaxis], reference=near, within_limits=False)[0]
     branches[:, -1] = np.where(np.isnan(branches[:, 0]), np.nan, last_joint)
     if elbow is not None:
         branches = _with_elbow(placed, branches, elbow)
@@ -87,7 +83,7 @@ def _unreachable(
     if missing > REACHED:
         expected = f"a position within reach; this one is out of reach by {missing:.4f} m"
         return InputError(source, "position", target.tolist(), expected)
-    expected = "a direction that the arm can turn its tool to at this position, with these limits"
+    expected = "a direction that the arm can turn its tool to at this position"
     return InputError(source, "tool", tool, expected)
 
 

@@ -33,7 +33,6 @@ def blocked_task(
     exempt
         Pairs of bodies that are not watched, see :class:`.Scene`.
     """
-    low, high = _turns(arm)
     while True:
         balls = {}
         for k in range(count):
@@ -45,7 +44,7 @@ def blocked_task(
             )
         scene = Scene([arm], balls, floor=0.0, exempt=exempt)
         for _ in range(_TRIES):
-            ends = rng.uniform(low, high, (2, arm.arm.nq))
+            ends = rng.uniform(*_turns(scene), (2, arm.arm.nq))
             if (distances(scene, ends).min(axis=1) > margin).all():
                 if contact_check(scene, ends).smallest < 0.0:
                     return scene, ends[0], ends[1]
@@ -56,13 +55,13 @@ def blocked_goal(
 ) -> np.ndarray:
     """Configuration of all arms of a scene (nq,), clear by ``margin`` [m], to which the straight
     line from ``start`` is in contact; joints stay within half a turn. Drawn until one fits."""
-    low, high = (np.concatenate(rows) for rows in zip(*map(_turns, scene.arms), strict=True))
     while True:
-        goal = rng.uniform(low, high)
+        goal = rng.uniform(*_turns(scene))
         clear = distances(scene, goal).min() > margin
         if clear and contact_check(scene, np.array([start, goal])).smallest < 0.0:
             return goal
 
 
-def _turns(arm: PlacedArm) -> tuple[np.ndarray, np.ndarray]:
-    return np.maximum(arm.arm.lower, -np.pi), np.minimum(arm.arm.upper, np.pi)
+def _turns(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    lower, upper = scene.limits
+    return np.maximum(lower, -np.pi), np.minimum(upper, np.pi)

@@ -18,12 +18,7 @@ from pathlib import Path
 from typing import Annotated, Any, Generic, Literal, TypeVar, overload
 
 import numpy as np
-from pydantic import (
-    Discriminator,
-    Field,
-    Tag,
-    model_validator,
-)
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from ...datafiles import StrictModel, read_yaml
 from ...errors import DataFileError, InputError

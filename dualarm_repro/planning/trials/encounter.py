@@ -1,37 +1,14 @@
-"""What two motions over one index show: tips that meet, points near obstacles, openings passed."""
+"""What a motion shows: points near obstacles, openings passed."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...scene import JointPath, PlacedArm
-from ..field.control_points import control_points, end_effector, ends_of
+from ..field.control_points import control_points, ends_of
 from ..field.obstacles import Obstacles
 from ..plan import Plan
 from ..settings import PointSet
-
-
-def instants(plan: Plan, track: JointPath) -> np.ndarray:
-    """Steps 0, 1, ... until the arm that is planned and the one on the track both rest (T,)."""
-    return np.arange(1 + max(plan.steps, int(np.ceil(track.index[-1]))))
-
-
-def tips_apart(
-    plan: Plan, other: PlacedArm, track: JointPath, *, moving: bool = False
-) -> np.ndarray:
-    """Distance of the end effectors of two arms at every instant (T,) [m].
-
-    Parameters
-    ----------
-    track
-        Joint path of the other arm over the steps of the plan.
-    moving
-        Only while the arm that is planned is on its way; one that waits at its goal has no track.
-    """
-    times = instants(plan, track)[: plan.steps + 1 if moving else None]
-    mine = plan.tcp[np.minimum(times, plan.steps)]
-    return np.linalg.norm(mine - end_effector(other, track.at(times)), axis=1)
 
 
 def to_obstacles(plan: Plan, points: PointSet, obstacles: Obstacles) -> np.ndarray:

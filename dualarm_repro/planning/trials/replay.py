@@ -11,7 +11,7 @@ from ...scene import JointPath, PlacedArm
 from ..field.control_points import end_effector
 from ..field.obstacles import Obstacles
 from ..plan import Plan
-from .encounter import instants, tips_apart, to_obstacles
+from .encounter import to_obstacles
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Replay:
     @property
     def times(self) -> np.ndarray:
         """Steps 0, 1, ... until both arms rest (T,)."""
-        return instants(self.plan, self.track)
+        return np.arange(1 + max(self.plan.steps, int(np.ceil(self.track.index[-1]))))
 
     @property
     def paths(self) -> dict[str, JointPath]:
@@ -47,9 +47,11 @@ class Replay:
     def apart(self, *, moving: bool = False) -> np.ndarray:
         """Distance of the end effectors until both arms rest, or while the planned one moves [m].
 
-        Shape (T,), or (N,) for the N configurations of the plan.
+        Shape (T,), or (N,) for the N configurations of the plan: an arm that waits has no track.
         """
-        return tips_apart(self.plan, self.other, self.track, moving=moving)
+        times = self.times[: self.plan.steps + 1 if moving else None]
+        mine = self.plan.tcp[np.minimum(times, self.plan.steps)]
+        return np.linalg.norm(mine - end_effector(self.other, self.track.at(times)), axis=1)
 
     def to_obstacles(self) -> np.ndarray:
         """Signed distance of the planned end effector to the nearest obstacle (N,) [m]."""

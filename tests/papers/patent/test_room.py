@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import dualarm_repro.papers.patent  # noqa: F401  registers its items
 from dualarm_repro.control.frozen import arm_pair
@@ -23,7 +24,7 @@ from dualarm_repro.papers.patent.document import (
     run,
     scenario_file,
 )
-from dualarm_repro.papers.patent.pages.network.symbols import matrix_equation
+from dualarm_repro.papers.patent.pages.network.symbols import matrix_equation, symbols
 from dualarm_repro.papers.patent.pages.problem.method import STEPS, name, trace, traced_steps
 from dualarm_repro.papers.patent.pages.problem.program import URDFS, uncovered
 from dualarm_repro.papers.patent.problems import sample_problem
@@ -89,6 +90,14 @@ def test_symbolic_matrix_is_symmetric():
     assert E.shape == (5, 5)
     assert len(y) == len(e) == 5
     assert E.T == E
+
+
+def test_symbolic_equation_is_the_zero_of_the_derivatives_of_the_lagrangian():
+    (E, y, e), s, P = matrix_equation(), symbols(), sp.Function("P")
+    phi, multiplier = s["phi"], s["multiplier"]
+    L = (phi.T * phi)[0] / 2 + sum(map(P, s["C"] * phi - s["d"]))
+    L += (multiplier.T * (s["J"] * phi - s["rate"]))[0]
+    assert sp.simplify(E * y - e - sp.Matrix([sp.diff(L, v) for v in y])) == sp.zeros(len(y), 1)
 
 
 def test_rest_points_depend_on_the_penalty():

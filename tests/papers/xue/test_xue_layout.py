@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dualarm_repro.errors import InputError
 from dualarm_repro.papers.xue.document import (
     gains,
     master_goal,
@@ -14,6 +15,7 @@ from dualarm_repro.papers.xue.document import (
     slave_start,
     workspace_points,
 )
+from dualarm_repro.papers.xue.motions import slave_task
 from dualarm_repro.papers.xue.reading import nominal
 
 
@@ -36,7 +38,18 @@ def test_slave_starts_and_ends_where_printed(registry):
 
 
 def test_far_base_leaves_no_slave(registry):
-    assert placed_slave(replace(nominal().layout, base_distance=9.0)) is None
+    case = nominal(base_distance=9.0)
+    assert placed_slave(case.layout) is None
+    with pytest.raises(InputError, match="slave"):
+        slave_task(case)
+
+
+def test_what_is_changed_reaches_every_part_of_a_case(registry):
+    given = nominal()
+    case = nominal(window_bar=0.07, update_rule="neighbour_search", equal_speed_meaning="same_step")
+    assert case.layout == replace(given.layout, window_bar=0.07)
+    assert case.planner == replace(given.planner, update_rule="neighbour_search")
+    assert case.encounter.equal_speed_meaning == "same_step"
 
 
 @pytest.mark.parametrize("normal", ["x", "y", "chord"])

@@ -23,23 +23,10 @@ SEAM_POINTS = 18
 _TOLERANCE = 0.01  # [m]
 READINGS = ("inverted", "literal")
 #: Assumptions that are drawn; those left out concern the search or the fineness of the seam.
-VARIED = (
-    "arm",
-    "shoulder_height",
-    "radius_main",
-    "radius_branch",
-    "workpiece_length",
-    "branch_length",
-    "gripper_length",
-    "grasp",
-    "flat_posture",
-    "torch_length",
-    "torch_crank",
-    "torch_axis",
-    "base_orientation",
-    "link_radius_scale",
-    "floor",
-)
+VARIED = ("arm", "shoulder_height", "radius_main", "radius_branch", "workpiece_length",
+          "branch_length", "gripper_length", "grasp", "flat_posture", "torch_length",
+          "torch_crank", "torch_axis", "base_orientation", "link_radius_scale",
+          "floor")  # fmt: skip
 #: Readings of (16), by the names used in tables and figures.
 OBJECTIVES = {
     "inverse volume": Objective(),

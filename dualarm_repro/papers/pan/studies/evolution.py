@@ -13,7 +13,7 @@ from ....ledger.assumptions import Chosen
 from ....welding import evolve
 from ....welding.genetic import Generation
 from ..document import SEED
-from ..reading import Genetic, Job, Measure, Problem
+from ..reading import PROBLEM, Genetic, Problem
 
 RUNS = 10
 #: Variants of the genetic algorithm: the declared one, another mutation, a coarse stall rule.
@@ -57,9 +57,7 @@ EVOLUTION = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen(
-        "pan", (*Job.names(), *Measure.names(), *Genetic.names(), "search_box"), ranges=True
-    ),
+    settings=Chosen("pan", (*PROBLEM, *Genetic.names(), "search_box"), ranges=True),
 )
 REGISTRY.keeps(EVOLUTION)
 
@@ -83,13 +81,9 @@ def stored_runs(count: int, variant: str = "declared") -> Runs:
     table = EVOLUTION.load()
     table = table[table["variant"] == variant].head(count)
 
-    def history(name: str) -> np.ndarray:
-        columns = [column for column in table.columns if column.rpartition("_")[0] == name]
-        return table[columns].to_numpy()
-
     return Runs(
         table[["x", "y", "z"]].to_numpy(),
         table["fitness"].to_numpy(),
         list(zip(table["generations"].tolist(), table["reason"], strict=True)),
-        {name: history(name) for name in Generation._fields},
+        {n: table.filter(regex=rf"^{n}_\d+$").to_numpy() for n in Generation._fields},
     )

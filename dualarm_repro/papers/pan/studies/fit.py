@@ -11,7 +11,7 @@ import numpy as np
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ..document import SEED, printed_optimum
-from ..reading import Job, Measure, Problem, optimum, solved
+from ..reading import PROBLEM, Problem, optimum, solved
 
 STARTS, DRAWS, EVALUATIONS = 4, 48, 320
 _COARSE = 18  # seam points while searching
@@ -21,18 +21,9 @@ _SAME = 1e-9  # [m], what round-off can change
 #: The readings in which optima come nearest to print, see :mod:`.consistency`.
 READINGS = {"base_transform": "literal", "objective": "tight"}
 #: Assumptions that are changed.
-VARIED = (
-    "shoulder_height",
-    "radius_main",
-    "radius_branch",
-    "workpiece_length",
-    "gripper_length",
-    "grasp",
-    "flat_posture",
-    "torch_length",
-    "base_orientation",
-    "floor",
-)
+VARIED = ("shoulder_height", "radius_main", "radius_branch", "workpiece_length",
+          "gripper_length", "grasp", "flat_posture", "torch_length", "base_orientation",
+          "floor")  # fmt: skip
 
 
 def cells() -> list[dict[str, Any]]:
@@ -48,8 +39,9 @@ def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, 
     with the declared number of seam points.
     """
     entries = {key: REGISTRY.declared(f"pan.{key}", "value", "range", "choices") for key in VARIED}
-    shares, best, count = _best_draw(entries, rng)
-    step = 0.25
+    draws = [dict(zip(VARIED, row, strict=True)) for row in rng.random((DRAWS, len(VARIED)))]
+    gaps = [distance(_values(entries, draw), _COARSE) for draw in draws]
+    shares, best, count, step = draws[int(np.argmin(gaps))], min(gaps), DRAWS, 0.25
     while count < EVALUATIONS and step >= _SMALLEST and best > _NEAR:
         improved = False
         for key in rng.permutation(VARIED):
@@ -94,14 +86,6 @@ def _problem(values: Mapping[str, Any], seam_points: int | None = None) -> Probl
     return Problem.of(every | {"seam_points": seam_points} if seam_points else every)
 
 
-def _best_draw(
-    entries: Mapping[str, Any], rng: np.random.Generator
-) -> tuple[dict[str, float], float, int]:
-    draws = [dict(zip(VARIED, row, strict=True)) for row in rng.random((DRAWS, len(VARIED)))]
-    gaps = [distance(_values(entries, draw), _COARSE) for draw in draws]
-    return draws[int(np.argmin(gaps))], min(gaps), DRAWS
-
-
 def _values(entries: Mapping[str, Any], shares: Mapping[str, float]) -> dict[str, Any]:
     return READINGS | {key: entries[key].at(share) for key, share in shares.items()}
 
@@ -120,9 +104,7 @@ FIT = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen(
-        "pan", tuple(dict.fromkeys((*VARIED, *Job.names(), *Measure.names()))), ranges=True
-    ),
+    settings=Chosen("pan", tuple(dict.fromkeys((*VARIED, *PROBLEM))), ranges=True),
     nested=("values",),
 )
 REGISTRY.keeps(FIT)

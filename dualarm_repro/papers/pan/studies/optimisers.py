@@ -13,7 +13,7 @@ from ....ledger.assumptions import Chosen
 from ....welding import OPTIMISERS as PEERS
 from ....welding import grid_optimum
 from ..document import SEED
-from ..reading import Job, Measure, Problem
+from ..reading import PROBLEM, Problem
 
 RUNS = 10
 BUDGET = 4750  # evaluations
@@ -52,7 +52,7 @@ OPTIMISERS = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen("pan", (*Job.names(), *Measure.names(), "search_box"), ranges=True),
+    settings=Chosen("pan", (*PROBLEM, "search_box"), ranges=True),
     measured=("seconds",),
 )
 REGISTRY.keeps(OPTIMISERS)

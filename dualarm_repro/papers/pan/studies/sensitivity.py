@@ -11,15 +11,14 @@ import pandas as pd
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen, alternatives
 from ..document import SEED
-from ..reading import Job, Measure, Problem, optimum
+from ..reading import PROBLEM, Problem, optimum
 
-_KEYS = (*Job.names(), *Measure.names())
 _VALUES = 5  # of a range
 
 
 def cells() -> list[dict[str, Any]]:
     """The declared assumptions, then one of them changed at a time."""
-    entries = {key: REGISTRY.declared(f"pan.{key}", "value") for key in _KEYS}
+    entries = {key: REGISTRY.declared(f"pan.{key}", "value") for key in PROBLEM}
     changes = [
         {"assumption": key, "value": str(value)}
         for key, entry in entries.items()
@@ -47,7 +46,7 @@ SENSITIVITY = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen("pan", (*_KEYS, "search_box"), ranges=True),
+    settings=Chosen("pan", (*PROBLEM, "search_box"), ranges=True),
 )
 REGISTRY.keeps(SENSITIVITY)
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ....control.frozen import arm_pair
 from ....control.joint_ranges import angle_excess, speed_excess
+from ....control.motion import Motion
 from ....control.neural.fixed_step import simulate_network
 from ....control.neural.network_settings import NetworkSettings
 from ....control.random_tasks import admissible, draw_task, naive_motion
@@ -30,6 +31,14 @@ SETTINGS = Chosen(
     inner=ControllerSettings().inner,
 )
 
+#: Columns and the properties of a motion that they hold.
+MEASURES = (
+    ("completed", "completed"),
+    ("distance", "smallest_distance"),
+    ("error", "largest_error"),
+    ("acceleration", "peak_acceleration"),
+    ("energy", "energy"),
+)
 _CHATTER = "motion with slack chatters between its rows, which amplifies round-off"
 #: Columns of the study that another processor may give otherwise.
 DELICATE = (
@@ -64,29 +73,23 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
         return found
     parts = (system, task.circles(system), task.q0)
     for form in RowForm:
-        motion = simulate(*parts, ControllerSettings(form=form), dt=COARSE_STEP)
-        found |= {
-            f"{form}_completed": motion.completed,
-            f"{form}_distance": motion.smallest_distance,
-            f"{form}_error": motion.largest_error,
-            f"{form}_acceleration": motion.peak_acceleration,
-            f"{form}_energy": motion.energy,
-        }
+        found |= _judged(form, simulate(*parts, ControllerSettings(form=form), dt=COARSE_STEP), 5)
     limited = simulate(*parts, ControllerSettings(avoid=False), dt=COARSE_STEP)
     slack = simulate(*parts, settings, dt=COARSE_STEP, slack=True)
     network = simulate_network(*parts, settings, NetworkSettings(), dt=CONTROL_STEP)
-    return found | {
-        "limits_completed": limited.completed,
-        "slack_completed": slack.completed,
-        "slack_distance": slack.smallest_distance,
-        "slack_error": slack.largest_error,
-        "slack_acceleration": slack.peak_acceleration,
-        "network_completed": network.completed,
-        "network_distance": network.smallest_distance,
-        "network_error": network.largest_error,
+    return {
+        **found,
+        **_judged("limits", limited, 1),
+        **_judged("slack", slack, 4),
+        **_judged("network", network, 3),
         "network_beyond_angle": angle_excess(system, network.q),
         "network_beyond_speed": speed_excess(system, network.x),
     }
+
+
+def _judged(name: str, motion: Motion, count: int) -> dict[str, Any]:
+    """The first so many measures of a motion, as columns."""
+    return {f"{name}_{key}": getattr(motion, measure) for key, measure in MEASURES[:count]}
 
 
 TASKS = REGISTRY.keeps(

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
-from ....ledger.captions import point
+from ....ledger.captions import captions
 from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.path_measures import WINDOW, chatter, until_rest
 from ....planning.field.control_points import end_effector
@@ -21,10 +21,13 @@ from ....view.search_curves import coordinate_figure
 from ....view.style import BLACK, GREEN
 from ....view.tip_paths import tip_path_figure
 from ..document import FACE_VALUE, PRINTED, RECONSTRUCTION, full_step, spheres
-from ..reading import Traditional, VariableGain, balance_ratio
+from ..ends import NO_CURVES
+from ..reading import Search, Traditional, VariableGain, balance_ratio
 from ..studies.improvements import IMPROVEMENTS, nearest
 
 checks = partial(REGISTRY.checks, page="qiu/one_sided")
+caption = captions(__file__)
+_CHATTERS = Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters")
 
 
 def _both(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
@@ -68,8 +71,8 @@ def _chatter(plan: SearchPlan, measure: str) -> float:
             "flange where it rests [m]",
             to="tcp",
             tolerance=0.033,
-            reason="printed as a neighbourhood: the way of the flange of the "
-            "straight arm in one printed step",
+            reason="printed as a neighbourhood: the way of the flange of the straight arm in one "
+            "printed step",
         ),
     ],
 )
@@ -85,23 +88,14 @@ def trapped(assumed: Assumed) -> Result:
             "reconstruction": other,
             "ratio_of_reconstruction": balance_ratio(),
         },
-        caption=(
-            f"With the printed gains the one-way search rests after {face['searches_until_rest']} "
-            f"searches at ({point(np.array(face['tcp']), 3)}) m, "
-            f"{face['joint_distance_to_goal']:.2f} rad from its goal ({face['failure']}): "
-            "obstacles push the arm off a goal inside their range. It never comes nearer than "
-            f"{1e3 * face['distance_to_printed_trap']:.0f} mm to the printed trap. With the gain "
-            f"ratio {balance_ratio():.1e}, at which repulsion at the printed trap is as large as "
-            f"the attraction, the search ends as: {other['reason']}, after "
-            f"{other['searches']} searches."
-        ),
+        caption=caption("claim_trad_stuck"),
     )
 
 
 @checks(
     "qiu.claim_trad_oscillates",
     rules=[
-        Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters"),
+        _CHATTERS,
         Bounded("beyond_range", "distance to an obstacle there beyond its range [m]", high=0.0),
     ],
 )
@@ -109,21 +103,15 @@ def oscillates(assumed: Assumed) -> Result:
     """Chatter of the height in the last searches of the one-way run."""
     face, other = _both(assumed)
     measure = assumed["oscillation_measure"]
-    level, spread = _chatter(face, measure), float(np.ptp(face.tcp[-WINDOW:, 2]))
     return Result(
         obtained={
-            "chatter": level,
+            "chatter": _chatter(face, measure),
             "beyond_range": float(face.record.clearances[0][-WINDOW:].min()) - PRINTED.influence,
-            "peak_to_peak": spread,
+            "peak_to_peak": float(np.ptp(face.tcp[-WINDOW:, 2])),
             "flips": face.record.flips[0],
             "reconstruction": _chatter(other, measure),
         },
-        caption=(
-            f"In its last {WINDOW} searches the height of the one-way run moves up and down by "
-            f"{1e3 * spread:.0f} mm, {level:.0%} of a full zigzag by the measure {measure}, and "
-            f"the resultant has flipped {face.record.flips[0]} times: a step of fixed length "
-            "cannot come to rest at an equilibrium."
-        ),
+        caption=caption("claim_trad_oscillates", window=WINDOW, measure=measure),
     )
 
 
@@ -141,28 +129,23 @@ def oscillates(assumed: Assumed) -> Result:
 def lambda_effect(assumed: Assumed) -> Result:
     """Chatter with constant and with variable gain, on the random tasks that chatter."""
     limits = REGISTRY.look("qiu.claim_lambda_effect", "thresholds").thresholds
+    clearly = limits["clearly"].value
     measure, ratio = assumed["oscillation_measure"], nearest(assumed["gain_ratio"])
     table = IMPROVEMENTS.load()
     table = table[table["gain_ratio"] == ratio]
     loud = table[table[f"{measure}_constant"] >= limits["chatters"].value]
     share = loud[f"{measure}_variable"] / loud[f"{measure}_constant"]
-    calmed = share <= limits["clearly"].value
-    middle = float(share.median()) if len(loud) else None
+    calmed = share <= clearly
     obtained = {
         "calmed": {"count": int(calmed.sum()), "of": len(loud)},
-        "median_ratio": middle,
+        "median_ratio": float(share.median()) if len(loud) else None,
         "tasks": len(table),
         "ratio": ratio,
         "measure": measure,
     }
     return Result(
         obtained=obtained,
-        caption=(
-            f"At eta_0/zeta = {ratio:g} the one-way search chatters in {len(loud)} of {len(table)} "
-            f"random tasks by the measure {measure}; the variable gain brings the chatter to "
-            f"{limits['clearly'].value:.0%} or less of what it was in {int(calmed.sum())} of them"
-            + (f", in the median to {middle:.0%}." if middle is not None else ".")
-        ),
+        caption=caption("claim_lambda_effect", clearly=clearly),
         witnesses=cell_witnesses(
             "qiu.claim_lambda_effect",
             obtained,
@@ -179,22 +162,16 @@ def lambda_effect(assumed: Assumed) -> Result:
         Bounded(
             "chatter", "chatter with constant gain, as a share of a full zigzag", low="chatters"
         ),
-        NoOriginal("curves", "the curves"),
+        NO_CURVES,
     ],
 )
 def height_with_both_gains(assumed: Assumed) -> Result:
     """Height of the flange over the searches, constant and variable gain."""
-    kinds = {"constant": Traditional, "variable": VariableGain}
+    kinds: dict[str, type[Search]] = {"constant": Traditional, "variable": VariableGain}
     plans = {name: kind.of(assumed).plan() for name, kind in kinds.items()}
     measure = assumed["oscillation_measure"]
     levels = {name: _chatter(plan, measure) for name, plan in plans.items()}
     heights = {f"z_{name}_m": pd.Series(plan.tcp[:, 2]) for name, plan in plans.items()}
-    words = (
-        f"{name} gain: {plan.searches} searches, ends as {plan.reason}, {plan.record.flips[0]} "
-        f"flips, chatter {levels[name]:.0%} of a full zigzag, smallest distance of a control point "
-        f"{plan.control_clearance:.3f} m"
-        for name, plan in plans.items()
-    )
     return Result(
         obtained={
             "chatter": levels["constant"],
@@ -204,10 +181,7 @@ def height_with_both_gains(assumed: Assumed) -> Result:
             "clearance": [plan.control_clearance for plan in plans.values()],
         },
         table=pd.DataFrame(heights).rename_axis("search").reset_index(),
-        caption=(
-            "Height of the flange in the printed scene. " + "; ".join(words).capitalize() + ". The "
-            "curves of the document are not in the text edition."
-        ),
+        caption=caption("fig06", plans=plans, levels=levels),
         alt="Coordinates of the flange over the searches for constant and variable gain.",
         figure=lambda: coordinate_figure(
             {f"{name} gain": plan.tcp for name, plan in plans.items()}
@@ -224,35 +198,28 @@ def height_with_both_gains(assumed: Assumed) -> Result:
 )
 def path_among_spheres(assumed: Assumed) -> Result:
     """Flange path and postures of the one-way search."""
-    face, other = _both(assumed)
-    trap = PRINTED.trap
-    goals = [end_effector(plan.placed, plan.problem.goal) for plan in (face, other)]
+    plans, trap = Traditional.of(assumed).readings(), PRINTED.trap
+    face, other = plans.values()
+    goals = {name: end_effector(plan.placed, plan.problem.goal) for name, plan in plans.items()}
     panels = [
-        search_panel(title, plan, {"flange": plan.tcp}, {"goal": goal, "printed trap": trap})
-        for title, plan, goal in zip(
-            (FACE_VALUE, RECONSTRUCTION), (face, other), goals, strict=True
-        )
+        search_panel(name, plan, {"flange": plan.tcp}, {"goal": goals[name], "printed trap": trap})
+        for name, plan in plans.items()
     ]
-    away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2)
-    clearance = away.min() - PRINTED.radius
+    away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2).min()
+    to_trap = float(np.linalg.norm(face.ends[0] - trap))
     return Result(
         obtained={
             "short_of_goal": face.gap - assumed["joint_tolerance"],
             "end": face.ends[0].tolist(),
-            "flange_clearance": float(clearance),
+            "flange_clearance": float(away - PRINTED.radius),
             "reconstruction_reached": other.reached,
         },
         table=face.to_frame(),
-        caption=(
-            f"With the printed gains the flange stays {clearance:.3f} m or more away from the "
-            f"spheres and ends at ({point(face.ends[0], 3)}) m, "
-            f"{1e3 * np.linalg.norm(face.ends[0] - trap):.0f} mm from the printed trap. In the "
-            f"reconstruction the one-way search ends as: {other.reason}."
-        ),
+        caption=caption("fig10", to_trap=to_trap, reason=other.reason),
         alt="Two panels with two spheres, postures of the arm and the path of its flange; the "
         "goal and the printed trap are marked.",
         figure=lambda: tip_path_figure(panels, list(spheres().values()), azim=35),
-        scene=lambda: _scene(face, goals[0]),
+        scene=lambda: _scene(face, goals[FACE_VALUE]),
     )
 
 
@@ -264,13 +231,7 @@ def _scene(plan: SearchPlan, goal: np.ndarray) -> Scene3D:
     return made
 
 
-@checks(
-    "qiu.fig11",
-    rules=[
-        Bounded("chatter", "chatter of the height, as a share of a full zigzag", low="chatters"),
-        NoOriginal("curves", "the curves"),
-    ],
-)
+@checks("qiu.fig11", rules=[_CHATTERS, NO_CURVES])
 def coordinates(assumed: Assumed) -> Result:
     """x, y and z of the flange over the searches of the one-way run."""
     face, other = _both(assumed)
@@ -281,13 +242,9 @@ def coordinates(assumed: Assumed) -> Result:
             "searches": face.searches,
         },
         table=face.to_frame(),
-        caption=(
-            f"Coordinates of the flange over {face.searches} searches at face value "
-            f"({face.record.flips[0]} flips of the resultant) and over {other.searches} in the "
-            "reconstruction; dashed: the printed trap. The printed curves are lost."
-        ),
-        alt="Coordinates of the flange over the searches for two readings, with the "
-        "printed trap as dashed levels.",
+        caption=caption("fig11", other=other.searches),
+        alt="Coordinates of the flange over the searches for two readings, with the printed trap "
+        "as dashed levels.",
         figure=lambda: coordinate_figure(
             {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp}, {"printed trap": PRINTED.trap}
         ),

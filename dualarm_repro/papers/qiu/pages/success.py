@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Result, Rounds
+from ....ledger.captions import captions
 from ....ledger.shares import Share
 from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.smoothness import bending_of, least_singular_value, moving_part
@@ -26,10 +27,11 @@ from ..studies.improvements import nearest
 from ..studies.random_scenes import SCENE_RATIOS, SCENES
 
 checks = partial(REGISTRY.checks, page="qiu/success")
+caption = captions(__file__)
 #: Columns of the studies of both methods that the document compares.
 COMPARED = {"traditional": "traditional", "improved": "VAB"}
 _BRANCH, _POINTS = "front_shallow", "elbow_wrist_flange"
-_SPACES = ("joints", "tip")
+_SPACES = {"joints": "joint space", "tip": "task space"}
 
 
 def better_cells(success_rule: str) -> tuple[pd.DataFrame, pd.Series]:
@@ -60,9 +62,8 @@ def table_2(assumed: Assumed) -> Result:
     rule = assumed["success_rule"]
     table, better = better_cells(rule)
     rows = []
-    for (points, ratio), cells in table[table.branch == _BRANCH].groupby(
-        ["control_points", "gain_ratio"]
-    ):
+    groups = table[table.branch == _BRANCH].groupby(["control_points", "gain_ratio"])
+    for (points, ratio), cells in groups:
         for method, variant in COMPARED.items():
             row = {"control points": points, "eta_0/zeta": ratio, "method": method}
             for judged in ("planner", "truth"):
@@ -72,29 +73,17 @@ def table_2(assumed: Assumed) -> Result:
             rows.append(row)
     shown = pd.DataFrame(rows)
     face = shown[(shown["control points"] == _POINTS) & (shown["eta_0/zeta"] == _printed_ratio())]
-    face = {row["method"]: row for row in face.to_dict("records")}
     obtained = {
         "goals": int(table.goals.min()),
         "better": {"count": int(better.sum()), "of": len(table)},
         "seeds": sorted(int(seed) for seed in table.goal_seed.unique()),
         "judged_by": JUDGED_BY[rule],
-        "face_value": face,
+        "face_value": {row["method"]: row for row in face.to_dict("records")},
     }
     return Result(
         obtained=obtained,
         table=shown,
-        caption=(
-            f"{table.goals.min()} goals with each of {table.goal_seed.nunique()} "
-            "seeds. With the printed gains "
-            + "; ".join(
-                f"the {method} search arrives at {row['planner']} by the "
-                f"planner, {row['truth']} in truth"
-                for method, row in face.items()
-            )
-            + f". Judged by the {JUDGED_BY[rule]}, the improved search does better in "
-            f"{better.mean():.0%} of {len(table)} choices of gains, posture, control points and "
-            "goals. The printed numbers are lost."
-        ),
+        caption=caption("tab02"),
         alt="Success rates of the search variants over the ratio of repulsive to attractive gain, "
         "by the planner and in truth, with bands of uncertainty and the printed ratio marked.",
         figure=_sweep_figure,
@@ -132,17 +121,14 @@ def _sweep_figure() -> Any:
     "qiu.claim_success_rate",
     rules=[
         _HIGHER,
-        Generally(
-            "smoother_joints",
-            "goals with the smoother path of the improved method, in joint space",
-            at_least="half",
-            margin="margin",
-        ),
-        Generally(
-            "smoother_tip",
-            "goals with the smoother path of the improved method, in task space",
-            at_least="half",
-            margin="margin",
+        *(
+            Generally(
+                f"smoother_{key}",
+                f"goals with the smoother path of the improved method, in {space}",
+                at_least="half",
+                margin="margin",
+            )
+            for key, space in _SPACES.items()
         ),
         Bounded(
             "singular_value",
@@ -190,17 +176,7 @@ def success_and_smoothness(assumed: Assumed) -> Result:
     return Result(
         obtained=obtained,
         table=shown,
-        caption=(
-            f"Judged by the {JUDGED_BY[rule]}, the improved method has the higher rate in "
-            f"{better.mean():.0%} of {len(table)} cells of the ablation. On {len(shown)} goals, "
-            "both paths cut where they rest and smoothed alike, its path bends less per length in "
-            f"{int(smoother['joints'].sum())} of them in joint space and in "
-            f"{int(smoother['tip'].sum())} in task space; the median ratio of the mean squared "
-            f"curvature is {ratios['joints']:.2g} and {ratios['tip']:.2g}. The smallest singular "
-            f"value of the position Jacobian on the way is {least:.3f} m/rad. At the printed "
-            f"start, all joints zero, the smallest of the whole Jacobian is {at_start:.0e}, since "
-            "axes 4 and 6 are aligned there."
-        ),
+        caption=caption("claim_success_rate", least=least),
         witnesses=_cell_witnesses("qiu.claim_success_rate", obtained, table, better, rule),
     )
 
@@ -235,13 +211,7 @@ def local_minima(assumed: Assumed) -> Result:
     }
     return Result(
         obtained=obtained,
-        caption=(
-            f"In {len(table)} random scenes at eta_0/zeta = {ratio:g} the one-way search fails "
-            + ", ".join(f"{len(rows)} times as {kind}" for kind, rows in kinds.items())
-            + f"; judged by the {judged}, the search from both ends solves "
-            + ", ".join(f"{int(found.sum())} of the {kind}" for kind, found in solved.items())
-            + "."
-        ),
+        caption=caption("claim_local_min"),
         witnesses=cell_witnesses(
             "qiu.claim_local_min", obtained, minima, rescued, ("scene", "spheres")
         ),

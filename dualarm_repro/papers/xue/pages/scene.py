@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from ....ledger import (
-    REGISTRY,
-    Adopts,
-    Assumed,
-    Bounded,
-    Is,
-    NoOriginal,
-    Residual,
-    Result,
-    Role,
-    Rounds,
-)
-from ....ledger.captions import point
+from ....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from ....ledger.captions import captions
+from ....ledger.rules import Rounds
 from ....planning.field.control_points import end_effector
 from ....planning.trials.speeds import largest_joint_step, mean_advance
 from ....scene import facing
@@ -28,10 +17,11 @@ from ....view.scene3d import Scene3D
 from ....view.style import BLACK, GREEN, ORANGE
 from ....view.tracks import tracks_figure
 from ..document import Layout, master_goal, placed_master, placed_slave
-from ..motions import master_track, slave_undisturbed
+from ..motions import master_track, present, slave_undisturbed
 from ..reading import improved, nominal, traditional
 
 checks = partial(REGISTRY.checks, page="xue/scene")
+caption = captions(__file__)
 
 
 @checks(
@@ -46,8 +36,8 @@ checks = partial(REGISTRY.checks, page="xue/scene")
 def window(assumed: Assumed) -> Result:
     """The window with Start, End and the virtual point in its middle."""
     layout = Layout.of(assumed)
-    start, end = layout.slave_points()
-    origin, centre, bars = layout.frame_origin, layout.window_centre, layout.window()
+    (start, end), origin = layout.slave_points(), layout.frame_origin
+    centre, bars = layout.window_centre, layout.window()
     middle = np.mean([bar.center for bar in bars], axis=0)
     sides = (np.array([start, end]) - centre) @ facing(layout.normal)[:, 2]
     return Result(
@@ -59,18 +49,9 @@ def window(assumed: Assumed) -> Result:
             "centre": centre.tolist(),
             "opening": list(layout.opening),
         },
-        caption=(
-            f"Start ({point(start, 2)}) and End ({point(end, 2)}) m as printed, "
-            + ("on either side" if sides[0] * sides[1] < 0.0 else "both on one side")
-            + f" of a window found by search: opening {layout.window_opening_width:g} by "
-            f"{layout.window_opening_height:g} m about ({point(centre, 2)}) m, bars of "
-            f"{layout.window_bar:g} m. Nothing of the window is printed, so there is nothing to "
-            "compare it with."
-        ),
-        alt=(
-            "A rectangular frame of four bars in space, a point on either side and one in its "
-            "middle."
-        ),
+        caption=caption("fig04", ends=(start, end), bar=layout.window_bar),
+        alt="A rectangular frame of four bars in space, a point on either side and one in its "
+        "middle.",
         figure=lambda: tracks_figure(
             bars, [], {"Start": start, "End": end, "virtual point": centre}, elev=18, azim=-60
         ),
@@ -90,26 +71,19 @@ def window(assumed: Assumed) -> Result:
 )
 def gains(assumed: Assumed) -> Result:
     """The gains of the planners that are run."""
-    case = nominal()
-    planner = replace(case.planner, virtual_gain=assumed["virtual_gain"])
-    new = improved(planner, case.layout.window_centre, master_goal())
-    old = traditional(planner, "end_effector")
+    case = nominal(virtual_gain=assumed["virtual_gain"])
+    new = improved(case.planner, case.layout.window_centre, master_goal())
+    old = traditional(case.planner, "end_effector")
+    repels, repelled = (present(made.repulsion, "repulsion") for made in (new, old))
     used = {
         "k_a": new.attraction.gain,
-        "k_w": float(new.virtual_point.gain),
-        "k_r": new.repulsion.gain,
-        "d_0": new.repulsion.influence,
+        "k_w": float(present(new.virtual_point, "virtual point").gain),
+        "k_r": repels.gain,
+        "d_0": repels.influence,
     }
-    same = (old.attraction.gain, old.repulsion.gain, old.repulsion.influence)
-    both = same == (used["k_a"], used["k_r"], used["d_0"])
-    values = ", ".join(f"{name} = {value:g}" for name, value in used.items())
-    unit = assumed["length_unit"]
+    both = new.attraction.gain == old.attraction.gain and repels == repelled
     return Result(
-        obtained={**used, "both": both},
-        caption=(
-            f"The planners run with {values}, with d_0 in {unit}; k_w is the gain named k_av "
-            "elsewhere."
-        ),
+        obtained={**used, "both": both}, caption=caption("claim_gains", unit=assumed["length_unit"])
     )
 
 
@@ -119,19 +93,14 @@ def _register_slave_point(item: str, field: str, name: str) -> None:
         unit, layout = assumed["length_unit"], Layout.of(assumed)
         slave = placed_slave(layout)
         if slave is None:
-            return Result(
-                {"position": None}, f"From this base {name} or its fellow is out of reach."
-            )
+            text = f"From this base {name} or its fellow is out of reach."
+            return Result({"position": None}, text)
         q = getattr(slave, field)
         reached = end_effector(slave, q) - layout.frame_origin
-        inside = slave.arm.within_limits(q)
+        inside = bool(slave.arm.within_limits(q))
         return Result(
-            obtained={"position": reached.tolist(), "q": q.tolist(), "within_limits": bool(inside)},
-            caption=(
-                f"{name} = ({point(reached, 2)}) {unit} is used as printed. Inverse kinematics "
-                f"gives the angles ({point(q, 3)}) rad, which (13) needs and print does not give; "
-                f"they are {'inside' if inside else 'outside'} the joint ranges of the real robot."
-            ),
+            obtained={"position": reached.tolist(), "q": q.tolist(), "within_limits": inside},
+            caption=caption("slave_point", name=name, unit=unit),
         )
 
 
@@ -152,22 +121,16 @@ _register_slave_point("xue.claim_slave_end", "goal", "End")
 )
 def equal_speed(assumed: Assumed) -> Result:
     """Speeds of the two motions that are run, in the joints and at the tools."""
-    case = nominal()
-    case = case._replace(
-        encounter=replace(case.encounter, equal_speed_meaning=assumed["equal_speed_meaning"])
-    )
-    track, slave = master_track(case), slave_undisturbed(case.layout, case.planner)
+    sense = assumed["equal_speed_meaning"]
+    case = nominal(equal_speed_meaning=sense)
+    track = present(master_track(case), "motion of the master")
+    slave = present(slave_undisturbed(case.layout, case.planner), "motion of the slave")
     flange = end_effector(placed_master(case.layout), track.configurations)
     tools = (mean_advance(flange, track.index), slave.tcp_length / slave.steps)
     joints = (largest_joint_step(track), largest_joint_step(slave.joint_path()))
     pairs = {"same_step": joints, "same_tool_speed": tools}
-    differences = {sense: abs(a - b) / max(a, b) for sense, (a, b) in pairs.items()}
-    senses = {
-        "same_step": "the largest joint step per instant",
-        "same_tool_speed": "the mean advance of the end effector per instant",
-    }
-    sense = case.encounter.equal_speed_meaning
-    other = next(name for name in senses if name != sense)
+    differences = {name: abs(a - b) / max(a, b) for name, (a, b) in pairs.items()}
+    (other,) = differences.keys() - {sense}
     return Result(
         obtained={
             "difference": differences[sense],
@@ -175,12 +138,7 @@ def equal_speed(assumed: Assumed) -> Result:
             "joint_step_rad": {"master": joints[0], "slave": joints[1]},
             "tool_m_per_instant": {"master": tools[0], "slave": tools[1]},
         },
-        caption=(
-            f"Equal speed is read as {senses[sense]}, in which the two motions run differ by "
-            f"{differences[sense]:.1%}. In the other reading, {senses[other]}, they differ by "
-            f"{differences[other]:.0%} ({100 * tools[0]:.2f} and {100 * tools[1]:.2f} cm at the "
-            "tools); which of them is meant is not printed."
-        ),
+        caption=caption("claim_equal_speed", sense=sense, other=other),
     )
 
 

@@ -14,20 +14,15 @@ from ....arms.overlap import Overlap, overlap
 from ....arms.reach import symmetric_bases
 from ....arms.workspace import extents, sample_workspace, voxel_volume
 from ....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Result
+from ....ledger.captions import captions
 from ....tracking import memo
 from ....view.clouds import cloud_figure, volume_figure
 from ....view.scene3d import Scene3D
 from ....view.style import MASTER, SLAVE
-from ..document import (
-    SEED,
-    arm_in_use,
-    master_start,
-    reach,
-    robot,
-    workspace_points,
-)
+from ..document import SEED, arm_in_use, master_start, reach, robot, workspace_points
 
 checks = partial(REGISTRY.checks, page="xue/workspace")
+caption = captions(__file__)
 
 CELLS = (0.05, 0.03, 0.02, 0.015)
 VOXELS = (0.3, 0.2, 0.1, 0.05)
@@ -48,10 +43,10 @@ def cloud(arm: Arm, points: int, seed: int = SEED) -> np.ndarray:
 def common_workspace(joint_ranges: str, upper_arm: float, distance: float) -> Overlap:
     """Overlap of master and mirrored slave."""
     master = arm_in_use(joint_ranges, upper_arm)
-    left, right = symmetric_bases(distance)
-    slave = _slave(master)
-    maps = (_reached(master), _reached(slave))
-    return overlap((master, left), (slave, right), seed=SEED, points=_TEST_POINTS, maps=maps)
+    arms = (master, _slave(master))
+    first, second = zip(arms, symmetric_bases(distance), strict=True)
+    maps = (_reached(arms[0]), _reached(arms[1]))
+    return overlap(first, second, seed=SEED, points=_TEST_POINTS, maps=maps)
 
 
 @memo()
@@ -81,12 +76,8 @@ def master_cloud(assumed: Assumed) -> Result:
     """Cloud of the master, its extents, and its volume two ways."""
     arm = arm_in_use(assumed["joint_ranges"], assumed["upper_arm"])
     points = cloud(arm, workspace_points())
-    size = extents(points)
-    body = rotation_volumes(arm, CELLS, SEED)
-    voxels = voxel_volume(points, VOXELS)
-    farthest = np.linalg.norm(points, axis=1)
-    below = float(arm.fk(master_start())[2, 3] - size.lower[2])
-    table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
+    size, farthest = extents(points), np.linalg.norm(points, axis=1)
+    body, voxels = rotation_volumes(arm, CELLS, SEED), voxel_volume(points, VOXELS)
     seconds = _time_per_cloud(arm)
     return Result(
         obtained={
@@ -95,7 +86,7 @@ def master_cloud(assumed: Assumed) -> Result:
             "upper": size.upper.tolist(),
             "farthest": size.distance[1],
             "beyond_reach": int(np.count_nonzero(farthest > reach("matrices") + _ROUND_OFF)),
-            "start_above_lowest": below,
+            "start_above_lowest": float(arm.fk(master_start())[2, 3] - size.lower[2]),
             "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
             "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
         },
@@ -103,25 +94,10 @@ def master_cloud(assumed: Assumed) -> Result:
             "time per sample [ns]": 1e9 * seconds / workspace_points(),
             "time for the cloud [ms]": 1e3 * seconds,
         },
-        table=table,
-        caption=(
-            f"{len(points)} random configurations reach x from {size.lower[0]:.2f} to "
-            f"{size.upper[0]:.2f}, y from {size.lower[1]:.2f} to {size.upper[1]:.2f} and z from "
-            f"{size.lower[2]:.2f} to {size.upper[2]:.2f} m, at most {size.distance[1]:.3f} m from "
-            f"the base. As a rotation body the workspace has {body[-1].volume:.1f} m^3; counting "
-            f"voxels of the cloud gives anything from {voxels[-1].volume:.0f} to "
-            f"{voxels[0].volume:.0f} m^3, depending on their size. The printed start of the master "
-            + (
-                f"lies {-below:.2f} m below the lowest point of this cloud. "
-                if below < 0.0
-                else "is no lower than this cloud. "
-            )
-            + "Neither joint ranges nor extents are printed to compare with."
-        ),
-        alt=(
-            "Scatter of the flange positions of one arm in three dimensions, a body of rotation "
-            "about the vertical axis; beside it its half section, and volume over cell size."
-        ),
+        table=pd.DataFrame(points, columns=["x_m", "y_m", "z_m"]),
+        caption=caption("fig05", body=body, voxels=voxels),
+        alt="Scatter of the flange positions of one arm in three dimensions, a body of rotation "
+        "about the vertical axis; beside it its half section, and volume over cell size.",
         figure=lambda: volume_figure(points, body, voxels),
     )
 
@@ -146,13 +122,11 @@ def monte_carlo_points(assumed: Assumed) -> Result:
 )
 def both_clouds(assumed: Assumed) -> Result:
     """Two independent clouds and the share of each inside the workspace of the other arm."""
-    ranges, upper_arm = assumed["joint_ranges"], assumed["upper_arm"]
     distance, count = assumed["base_distance"], int(assumed["cloud_points"])
-    master = arm_in_use(ranges, upper_arm)
-    slave = _slave(master)
-    left, right = symmetric_bases(distance)
-    common = common_workspace(ranges, upper_arm, distance)
-    shares = (common.first_in_second, common.second_in_first)
+    master = arm_in_use(assumed["joint_ranges"], assumed["upper_arm"])
+    slave, (left, right) = _slave(master), symmetric_bases(distance)
+    common, bounds = _common(assumed)
+    shares = {"master": common.first_in_second, "slave": common.second_in_first}
 
     def clouds() -> dict[str, np.ndarray]:
         return {
@@ -161,10 +135,8 @@ def both_clouds(assumed: Assumed) -> Result:
         }
 
     def scene() -> Scene3D:
-        made = Scene3D(
-            f"Both arms at the printed start and {_SHOWN} points of either workspace.",
-            camera=(7.5, -3.5, 3.0),
-        )
+        title = f"Both arms at the printed start and {_SHOWN} points of either workspace."
+        made = Scene3D(title, camera=(7.5, -3.5, 3.0))
         made.add_arm("master", master, master_start(), left, MASTER)
         made.add_arm("slave", slave, -master_start(), right, SLAVE)
         for (name, points), color in zip(clouds().items(), (MASTER, SLAVE), strict=True):
@@ -174,24 +146,17 @@ def both_clouds(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "points_per_arm": count,
-            "master_in_slave": shares[0].value,
-            "slave_in_master": shares[1].value,
-            "share_low": min(share.low for share in shares),
-            "share_high": max(share.high for share in shares),
+            "master_in_slave": common.first_in_second.value,
+            "slave_in_master": common.second_in_first.value,
+            **bounds,
         },
         table=pd.DataFrame(
             [
                 {"cloud": name, "share": s.value, "low": s.low, "high": s.high}
-                for name, s in zip(("master", "slave"), shares, strict=True)
+                for name, s in shares.items()
             ]
         ),
-        caption=(
-            f"With the bases {distance:g} m apart, {shares[0].value:.1%} of the master's cloud "
-            f"lies in the slave's workspace (95 % interval {shares[0].low:.1%} to "
-            f"{shares[0].high:.1%}) and {shares[1].value:.1%} of the slave's in the "
-            "master's"
-            + (": the clouds overlap in part." if min(shares[0].low, shares[1].low) > 0.0 else ".")
-        ),
+        caption=caption("fig06", distance=distance, master=common.first_in_second),
         alt="Point clouds of two arms from above and from the front, overlapping in the middle.",
         figure=lambda: cloud_figure(clouds(), (MASTER, SLAVE)),
         scene=scene,
@@ -208,23 +173,22 @@ def both_clouds(assumed: Assumed) -> Result:
 )
 def partial_overlap(assumed: Assumed) -> Result:
     """Volume common to both workspaces with its interval."""
-    distance = assumed["base_distance"]
-    common = common_workspace(assumed["joint_ranges"], assumed["upper_arm"], distance)
-    volume = common.volume
+    common, bounds = _common(assumed)
+    volume = {"volume": common.volume.value}
+    volume |= {"volume_low": common.volume.low, "volume_high": common.volume.high}
     return Result(
-        obtained={
-            "volume": volume.value,
-            "volume_low": volume.low,
-            "volume_high": volume.high,
-            "share_low": min(common.first_in_second.low, common.second_in_first.low),
-            "share_high": max(common.first_in_second.high, common.second_in_first.high),
-        },
-        caption=(
-            f"With the bases {distance:g} m apart the workspaces share {volume.value:.2f} m^3 "
-            f"(95 % interval {volume.low:.2f} to {volume.high:.2f})"
-            + (", so the arms can collide." if volume.low > 0.0 else ".")
-        ),
+        obtained={**volume, **bounds},
+        caption=caption("claim_overlap", distance=assumed["base_distance"]),
     )
+
+
+def _common(assumed: Assumed) -> tuple[Overlap, dict[str, float]]:
+    """What both arms reach, and the outer bounds of the shares of either cloud."""
+    names = ("joint_ranges", "upper_arm", "base_distance")
+    common = common_workspace(*(assumed[name] for name in names))
+    shares = (common.first_in_second, common.second_in_first)
+    low, high = min(share.low for share in shares), max(share.high for share in shares)
+    return common, {"share_low": low, "share_high": high}
 
 
 def _time_per_cloud(arm: Arm) -> float:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
-from ..document import assumption
+from ..document import assumptions
 from ..outcomes import DESCENTS, TRIALS, VARIANTS, outcomes, starts
 from ..reading import CASE, nominal
-from .lottery import RANGES, random_case
+from .lottery import DRAWN_WITH, random_case
 
 LAYOUTS = 150
 #: Trials in the named arrangements.
@@ -39,8 +38,7 @@ def ablation_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict
     """Every method in one arrangement, from the same starts."""
     name, count = settings["layout"], settings["trials"]
     if name in NAMED:
-        given = nominal()
-        case = given._replace(layout=replace(given.layout, **NAMED[name]))
+        case = nominal(**NAMED[name])
     else:
         case = random_case(settings["meeting_distance"], rng)[0]
     begin = starts(case, settings["trial_perturbation"], count, rng)
@@ -48,7 +46,7 @@ def ablation_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict
 
 
 def _cells() -> list[dict[str, Any]]:
-    frozen = {key: assumption(key) for key in ("meeting_distance", "trial_perturbation")}
+    frozen = assumptions(*DRAWN_WITH)
     named = [{"layout": name, "trials": MANY, **frozen} for name in NAMED]
     drawn = [{"layout": f"random {k}", "trials": TRIALS, **frozen} for k in range(LAYOUTS)]
     return named + drawn
@@ -63,12 +61,7 @@ ABLATION = REGISTRY.keeps(
         compared=DESCENTS,
         seed=20200345,
         settings=Chosen(
-            "xue",
-            (*CASE, "meeting_distance", "trial_perturbation"),
-            layouts=LAYOUTS,
-            many=MANY,
-            named=NAMED,
-            ranges=RANGES,
+            "xue", (*CASE, *DRAWN_WITH), ranges=True, layouts=LAYOUTS, many=MANY, named=NAMED
         ),
     )
 )

@@ -12,19 +12,15 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from ....errors import LedgerError
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ....ledger.streams import stream
 from ....planning.trials.runs import attempt, touching
-from ....tracking import memo
 from ..outcomes import DESCENTS, TRIALS, VARIANTS, starts
 from ..reading import KEPT, nominal
-from .lottery import LAYOUTS, LOTTERY, RANGES, draw
-
-SEED = 20200348
+from .lottery import LAYOUTS, LOTTERY, draw, lottery_table
 
 
 def comparison_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
@@ -37,7 +33,7 @@ def comparison_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> di
     LedgerError
         The arrangement drawn again is not the one of the lottery.
     """
-    stored = _lottery().iloc[settings["layout"]]
+    stored = lottery_table().iloc[settings["layout"]]
     own, given = stream(LOTTERY.seed, settings["layout"]), nominal()
     for _ in range(int(stored["draws"])):
         layout = draw(own, given)
@@ -49,16 +45,10 @@ def comparison_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> di
     for points, name in (("end_effector", "traditional"), ("five_points", "improved")):
         made = VARIANTS[name].problem(case)
         plan = attempt(made.placed, made.start, made.obstacles, made.settings)
-        arrived = plan is not None and plan.reached
+        lengths = (plan.tcp_length, plan.length) if plan and plan.reached else (np.nan, np.nan)
         row[f"touching_{points}"] = int(touching(made, begin).sum())
-        row[f"{name}_tool_path"] = plan.tcp_length if arrived else np.nan
-        row[f"{name}_joint_path"] = plan.length if arrived else np.nan
+        row[f"{name}_tool_path"], row[f"{name}_joint_path"] = lengths
     return row
-
-
-@memo()
-def _lottery() -> pd.DataFrame:
-    return LOTTERY.load()
 
 
 def _cells() -> list[dict[str, Any]]:
@@ -72,7 +62,7 @@ COMPARISON = REGISTRY.keeps(
         cells=_cells,
         compute=comparison_cell,
         compared=DESCENTS,
-        seed=SEED,
-        settings=Chosen("xue", (*KEPT,), trials=TRIALS, ranges=RANGES),
+        seed=20200348,
+        settings=Chosen("xue", KEPT, ranges=True, trials=TRIALS),
     )
 )

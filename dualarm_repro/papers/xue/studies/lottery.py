@@ -11,12 +11,14 @@ from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ....planning.trials.runs import attempt
+from ....tracking import memo
 from .. import motions
-from ..document import Layout, assumption, slave_end, slave_start
+from ..document import Layout, assumptions, slave_end, slave_start
 from ..outcomes import DESCENTS, TRIALS, VARIANTS, outcomes, starts
 from ..reading import KEPT, Case, nominal
 
@@ -33,6 +35,8 @@ RANGES: dict[str, Any] = {
     "normals": ("x", "y", "chord"),
     "undisturbed_steps": 100,
 }
+#: Assumptions of a study that draws arrangements and starts.
+DRAWN_WITH = ("meeting_distance", "trial_perturbation")
 
 
 def draw(rng: np.random.Generator, given: Case) -> Layout:
@@ -46,11 +50,10 @@ def draw(rng: np.random.Generator, given: Case) -> Layout:
     master = motions.master_undisturbed(like, given.planner).tcp - like.master_base
     k = int(rng.integers(len(master)))
     share = min(k / RANGES["undisturbed_steps"], 1.0)
-    about = RANGES["master_about_meeting"]
+    about, spread = RANGES["master_about_meeting"], RANGES["window_about_midpoint"]
     start, end = slave_start(), slave_end()
     base = start + share * (end - start) - master[k] + rng.uniform(-about, about, 3)
     beside = rng.uniform(*RANGES["slave_base_y"])
-    spread = RANGES["window_about_midpoint"]
     centre = 0.5 * (start + end) + rng.uniform(-spread, spread, 3)
     return replace(
         like,
@@ -103,31 +106,28 @@ def lottery_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[
     case, draws, repelled = random_case(settings["meeting_distance"], rng)
     begin = starts(case, settings["trial_perturbation"], TRIALS, rng)
     row = {"draws": draws, "goal_repelled": repelled, **asdict(case.layout), **motion_row(case)}
-    return row | outcomes(
-        case, ("traditional", "five_points", "without_virtual", "improved"), begin
-    )
+    methods = ("traditional", "five_points", "without_virtual", "improved")
+    return row | outcomes(case, methods, begin)
 
 
 def motion_row(case: Case) -> dict[str, Any]:
     """Figs 8, 10 and 11 in one arrangement: ends, distances of points and of link cores [m]."""
-    layout, planner = case.layout, case.planner
-    first, slave = motions.master_plan(layout, planner), motions.slave_plan(case)
-    undisturbed = motions.master_undisturbed(layout, planner)
+    layout, planner, points = case.layout, case.planner, case.planner.control_points
+    first = motions.present(motions.master_plan(layout, planner), "plan of the master")
+    alone, slave = motions.master_undisturbed(layout, planner), motions.slave_plan(case)
     row: dict[str, Any] = {
         "master_steps": first.steps,
-        "master_distance": motions.points_to_window(first, layout, planner.control_points).min(),
-        "master_undisturbed": motions.points_to_window(
-            undisturbed, layout, planner.control_points
-        ).min(),
+        "master_distance": motions.points_to_window(first, layout, points).min(),
+        "master_undisturbed": motions.points_to_window(alone, layout, points).min(),
         "slave_reason": "start-collides" if slave is None else str(slave.reason),
     }
     if slave is None:
         return row
-    replay = motions.replay_of(case, slave)
+    replay = motions.present(motions.replay_of(case, slave), "motion of the master")
     cores = motions.cores_of(replay, layout)
     to_bars = cores.between("slave", "window")
-    settings = VARIANTS["traditional"].settings(case)
-    traditional = attempt(slave.placed, slave.placed.start, motions.slave_obstacles(case), settings)
+    (placed, obstacles), settings = motions.slave_task(case), VARIANTS["traditional"].settings(case)
+    traditional = attempt(placed, placed.start, obstacles, settings)
     return row | {
         "slave_steps": slave.steps,
         "slave_length": slave.length,
@@ -150,26 +150,24 @@ def repelled_at_goal(case: Case) -> bool:
 
 
 def _cells() -> list[dict[str, Any]]:
-    frozen = {key: assumption(key) for key in ("meeting_distance", "trial_perturbation")}
-    return [{"layout": k, **frozen} for k in range(LAYOUTS)]
+    return [{"layout": k, **assumptions(*DRAWN_WITH)} for k in range(LAYOUTS)]
 
 
 LOTTERY = REGISTRY.keeps(
     Study(
         name="xue_lottery",
-        title=(
-            "Random arrangements in which Fig. 9 holds: outcome of every method, clearance of links"
-        ),
+        title="Random arrangements in which Fig. 9 holds: outcome of every method, "
+        "clearance of links",
         cells=_cells,
         compute=lottery_cell,
         compared=DESCENTS,
         seed=20200344,
-        settings=Chosen(
-            "xue",
-            (*KEPT, "meeting_distance", "trial_perturbation"),
-            layouts=LAYOUTS,
-            trials=TRIALS,
-            ranges=RANGES,
-        ),
+        settings=Chosen("xue", (*KEPT, *DRAWN_WITH), ranges=True, layouts=LAYOUTS, trials=TRIALS),
     )
 )
+
+
+@memo()
+def lottery_table() -> pd.DataFrame:
+    """One row per random arrangement in which Fig. 9 holds."""
+    return LOTTERY.load()

@@ -26,9 +26,8 @@ MINIMUM = 1e-7
 
 def minima_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Descents from random starts to random goals; how many rest in a minimum elsewhere."""
-    chosen = gains()["k_a"], settings["weight"], PAIRS
-    placed = PlacedArm("arm", load_arm("es165d"))
-    found = free_minima(placed, *chosen, rng, arrived=ARRIVED, flat=MINIMUM)
+    placed, weight = PlacedArm("arm", load_arm("es165d")), settings["weight"]
+    found = free_minima(placed, gains()["k_a"], weight, PAIRS, rng, arrived=ARRIVED, flat=MINIMUM)
     return {"pairs": PAIRS, **found._asdict()}
 
 

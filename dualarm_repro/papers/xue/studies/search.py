@@ -19,10 +19,10 @@ from ....ledger.assumptions import Chosen
 from ....planning.trials.encounter import inside_opening
 from ....scene import facing
 from .. import motions
-from ..document import METHODS_OF_TABLE_2, Layout, assumption, gains, text_counts
+from ..document import METHODS_OF_TABLE_2, Layout, assumptions, gains, text_counts
 from ..outcomes import TRIALS, run_variants, starts
 from ..reading import KEPT, Case, nominal
-from .lottery import draw, fig_9_holds
+from .lottery import DRAWN_WITH, draw, fig_9_holds
 
 STARTS = 4
 #: Random arrangements of which the best is climbed from.
@@ -39,17 +39,10 @@ CHANGED = 0.4
 PER_RUN = 0.01  # [m]
 #: What is demanded beside what is printed, metres; see :func:`margins`.
 DEMANDS = {"bar_entered_by": 0.01, "meeting": 0.10, "master_without": 0.05, "radius": 0.12}
-_NUMBERS = (
-    "master_base_x",
-    "master_base_y",
-    "master_base_z",
-    "base_distance",
-    "window_centre_x",
-    "window_centre_y",
-    "window_centre_z",
-    "window_opening_width",
-    "window_opening_height",
-)
+_NUMBERS = ("master_base_x", "master_base_y", "master_base_z", "base_distance",
+            "window_centre_x", "window_centre_y", "window_centre_z",
+            "window_opening_width", "window_opening_height")  # fmt: skip
+_SETTINGS = (*DRAWN_WITH, "trial_seed")
 _SMALLEST = {"base_distance": 0.5, "window_opening_width": 0.4, "window_opening_height": 0.35}
 
 
@@ -61,13 +54,13 @@ def margins(case: Case) -> dict[str, float]:
     its links clear of the bars, which its undisturbed motion would touch. Figs 10 and 11: the slave
     arrives through the opening, its links clear of bars and master. Start and End are out of range.
     """
-    layout, planner = case.layout, case.planner
+    layout, planner, points = case.layout, case.planner, case.planner.control_points
     slave = motions.slave_undisturbed(layout, planner)
     if slave is None or not slave.reached:
         return {"fig_9": -10.0}
-    ends = motions.points_to_window(slave, layout, planner.control_points)[[0, -1]]
+    ends = motions.points_to_window(slave, layout, points)[[0, -1]]
     undisturbed = motions.master_undisturbed(layout, planner)
-    nearest = motions.points_to_window(undisturbed, layout, planner.control_points).min()
+    nearest = motions.points_to_window(undisturbed, layout, points).min()
     found = {
         "enters_bar": -motions.points_to_window(slave, layout).min() - DEMANDS["bar_entered_by"],
         "ends_out_of_range": ends.min() - gains()["d_0"],
@@ -78,12 +71,12 @@ def margins(case: Case) -> dict[str, float]:
         return found | {"fig_8": -5.0}
     found["meets"] = DEMANDS["meeting"] - replay.apart(moving=True).min()
     plan = motions.slave_plan(case)
-    if plan is None or not plan.reached:
+    avoiding = motions.replay_of(case, plan)
+    if plan is None or avoiding is None or not plan.reached:
         return found | {"fig_11": -3.0}
-    cores = motions.smallest_cores(motions.cores_of(motions.replay_of(case, plan), layout))
-    radius = DEMANDS["radius"]
-    facing_it = facing(layout.normal)
-    opening = inside_opening(plan.tcp, layout.window_centre, facing_it, layout.opening)
+    cores, radius = motions.smallest_cores(motions.cores_of(avoiding, layout)), DEMANDS["radius"]
+    way = facing(layout.normal)
+    opening = inside_opening(plan.tcp, layout.window_centre, way, layout.opening)
     return found | {
         "through": max(opening, -1.0),
         "slave_clear": cores["slave_window"] - radius,
@@ -109,7 +102,7 @@ def score(case: Case, settings: Mapping[str, Any]) -> float:
 def disturbed(layout: Layout, step: float, rng: np.random.Generator) -> Layout:
     """The arrangement with some of its numbers changed by normal draws of that deviation."""
     changes = step * rng.standard_normal(len(_NUMBERS)) * (rng.random(len(_NUMBERS)) < CHANGED)
-    values = {
+    values: dict[str, Any] = {
         name: on_grid(max(getattr(layout, name) + change, _SMALLEST.get(name, -np.inf)))
         for name, change in zip(_NUMBERS, changes, strict=True)
     }
@@ -152,7 +145,7 @@ def search_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[s
 
 def _start(given: Case, settings: Mapping[str, Any], rng: np.random.Generator) -> Case:
     """The best of some random arrangements on the grid in which Fig. 9 holds."""
-    pool = []
+    pool: list[Case] = []
     while len(pool) < POOL:
         layout = draw(rng, given)
         case = given._replace(layout=replace(layout, window_bar=on_grid(layout.window_bar)))
@@ -162,8 +155,7 @@ def _start(given: Case, settings: Mapping[str, Any], rng: np.random.Generator) -
 
 
 def _cells() -> list[dict[str, Any]]:
-    names = ("meeting_distance", "trial_perturbation", "trial_seed")
-    return [{"start": k, **{name: assumption(name) for name in names}} for k in range(STARTS)]
+    return [{"start": k, **assumptions(*_SETTINGS)} for k in range(STARTS)]
 
 
 SEARCH = REGISTRY.keeps(
@@ -175,7 +167,7 @@ SEARCH = REGISTRY.keeps(
         seed=20200344,
         settings=Chosen(
             "xue",
-            (*KEPT, "meeting_distance", "trial_perturbation", "trial_seed"),
+            (*KEPT, *_SETTINGS),
             pool=POOL,
             rounds=ROUNDS,
             step=STEP,

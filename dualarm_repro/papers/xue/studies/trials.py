@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
-from ..document import assumption
+from ..document import assumptions
 from ..outcomes import DESCENTS, outcomes, starts
 from ..reading import CASE, nominal
 
@@ -21,16 +20,14 @@ BLOCK = 25
 
 def repeated_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Both methods from the same block of starts."""
-    given = nominal()
-    case = given._replace(planner=replace(given.planner, update_rule=settings["update_rule"]))
+    case = nominal(update_rule=settings["update_rule"])
     begin = starts(case, settings["trial_perturbation"], BLOCK, rng)
     return outcomes(case, ("traditional", "without_virtual", "improved"), begin)
 
 
 def _cells() -> list[dict[str, Any]]:
-    half_width = assumption("trial_perturbation")
     return [
-        {"update_rule": rule, "block": k, "trial_perturbation": half_width}
+        {"update_rule": rule, "block": k, **assumptions("trial_perturbation")}
         for rule, count in BLOCKS.items()
         for k in range(count)
     ]

@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.welding_cell import vectors_figure
 from .....welding import ROBOTS, WELDER, Cell, Jobs, flange_poses, held_poses, torch_tips
 from .....welding.motion import periodic_derivative
@@ -18,6 +18,7 @@ from ...print_forms import block_residual, printed_text, residual, worst
 from ...reading import SHOWN, FlatSeam, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
+caption = captions(__file__)
 #: Samples of the turn for derivatives by Fourier transform.
 _FINE = 1440
 
@@ -35,8 +36,7 @@ def grip_change(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
 
 
 @checks(
-    "pan.eq01",
-    rules=[Residual("residual", "both sides of the printed (1) differ by", high=1e-7)],
+    "pan.eq01", rules=[Residual("residual", "both sides of the printed (1) differ by", high=1e-7)]
 )
 def tight_coordination(assumed: Assumed) -> Result:
     """Twists at two points of one rigid body, against central differences of a screw motion."""
@@ -47,17 +47,10 @@ def tight_coordination(assumed: Assumed) -> Result:
         velocities = _screw_velocities(body, twist, arms)
         turn = body.rotation @ twist[3:]
         first, second = (np.concatenate([v, turn]) for v in velocities)
-        J = np.eye(6)
-        J[:3, 3:] = -pin.skew(body.rotation @ (arms[0] - arms[1]))
+        J = _between(body.rotation @ (arms[0] - arms[1]))
         cases.append({"x1_dot": first, "x2_dot": second, "J": J})
-    largest = worst(printed_text("pan.eq01"), cases)
     return Result(
-        obtained={"residual": largest},
-        caption=(
-            "For two points of one rigid body (1) holds with J = [[I, -[r]x], [0, I]], r the "
-            f"vector between them: on 100 random motions to {largest:.1e}. J is a map between "
-            "twists; from (9) on the same letter is the Jacobian of an arm."
-        ),
+        obtained={"residual": worst(printed_text("pan.eq01"), cases)}, caption=caption("eq01")
     )
 
 
@@ -84,35 +77,25 @@ def loose_coordination(assumed: Assumed) -> Result:
     turning = periodic_derivative(R) @ R.transpose(0, 2, 1)
     cases, slip = [], periodic_derivative(seam.points)
     for n in range(0, _FINE, 10):
-        lever = R[n] @ seam.points[n]
-        J = np.eye(6)
-        J[:3, 3:] = -pin.skew(lever)
         omega = np.array([turning[n, 2, 1], turning[n, 0, 2], turning[n, 1, 0]])
         cases.append(
             {
                 "x1_dot": np.concatenate([torch[n], omega]),
                 "x2_dot": np.concatenate([np.zeros(3), omega]),
-                "J": J,
+                "J": _between(R[n] @ seam.points[n]),
                 "alpha_dot": np.concatenate([R[n] @ slip[n], np.zeros(3)]),
             }
         )
     relative = np.einsum("nij,nj->ni", R, slip)
     along = np.sum(relative * tangent, axis=1)
-    across = float(np.linalg.norm(relative - along[:, np.newaxis] * tangent, axis=1).max())
-    largest = worst(printed_text("pan.eq02"), cases)
+    across = np.linalg.norm(relative - along[:, np.newaxis] * tangent, axis=1)
     return Result(
         obtained={
-            "residual": largest,
-            "across": across,
+            "residual": worst(printed_text("pan.eq02"), cases),
+            "across": float(across.max()),
             "along": float(abs(along).min() / flat.radius_branch),
         },
-        caption=(
-            "The velocity of the torch is that of the workpiece at the point it touches and a "
-            f"relative one, to {largest:.1e}: this is (2). The relative one points along the "
-            f"tangent of the seam, {abs(along).min():.3f} to {abs(along).max():.3f} m per radian "
-            f"of theta, and across it by at most {across:.1e}; for any two pipes it is at least "
-            "the radius of the branch per radian, so that the coordination is never tight."
-        ),
+        caption=caption("eq02", speeds=abs(along)),
     )
 
 
@@ -127,25 +110,19 @@ def workpiece_pose(assumed: Assumed) -> Result:
     """The printed blocks of the transform against the pose that both carriers hold."""
     cell, jobs, centre = at_display(assumed)
     R, rows = cell.rotations, printed_text("pan.eq03", "matrix")
-    worst_gap = max(
+    gaps = [
         block_residual(rows, {"R_wc": R[n], "P_wc0": centre}, held)
         for robot in range(WELDER)
         for n, held in enumerate(held_poses(cell, jobs, robot))
-    )
+    ]
     turn = np.degrees(np.arccos(np.clip((np.trace(R, axis1=1, axis2=2) - 1) / 2, -1, 1)))
     return Result(
         obtained={
-            "residual": worst_gap,
+            "residual": max(gaps),
             "orthonormal": float(abs(R.transpose(0, 2, 1) @ R - np.eye(3)).max()),
             "turn": float(turn.max()),
         },
-        caption=(
-            "The workpiece frame, put together from the printed blocks, is where both carriers "
-            f"hold it, to {worst_gap:.1e}. To lay each seam point flat it turns by "
-            f"{turn.min():.1f} to {turn.max():.1f} deg about its origin, which stays at C. A pose "
-            "that is constant for a given C, as one sentence has it, would leave the carriers at "
-            "rest."
-        ),
+        caption=caption("eq03", least=turn.min()),
     )
 
 
@@ -163,12 +140,7 @@ def position_vectors(assumed: Assumed) -> Result:
     r = np.einsum("ji,kj->ki", cell.rotations[index], cell.flanges[:WELDER, index, :3, 3])
     return Result(
         obtained={"closure": grip_change(cell, jobs, centre), "r": r.tolist()},
-        caption=(
-            "World, base and workpiece frames with the vectors of (4) and (5). By these "
-            "equations p2 leads to the workpiece and p1, p3 to the flanges of the two carriers, "
-            f"so the indices do not count robots. The grips are {np.linalg.norm(r[0]):.3f} "
-            f"and {np.linalg.norm(r[1]):.3f} m from the origin of the workpiece."
-        ),
+        caption=caption("fig02", lengths=np.linalg.norm(r, axis=1)),
         alt="Coordinate frames joined by arrows from the world to workpiece and flanges.",
         figure=lambda: vectors_figure(cell, jobs.q[0], centre),
     )
@@ -176,81 +148,46 @@ def position_vectors(assumed: Assumed) -> Result:
 
 def _closure(item: str, robot: int, names: tuple[str, str]) -> None:
     @checks(
-        item,
-        rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)],
+        f"pan.{item}", rules=[Residual("residual", "largest residual along the job [m]", high=1e-9)]
     )
     def closure(assumed: Assumed) -> Result:
         cell, jobs, centre = at_display(assumed)
         flange = flange_poses(cell, jobs, robot)[:, :3, 3]
-        r = grips(cell, jobs, robot, centre)
+        r = grips(cell, jobs, robot, centre)[0]
         cases = [
-            {"p_2": centre, "R_wc": R, names[0]: r[0], names[1]: end}
+            {"p_2": centre, "R_wc": R, names[0]: r, names[1]: end}
             for R, end in zip(cell.rotations, flange, strict=True)
         ]
-        largest = worst(printed_text(item), cases)
         return Result(
-            obtained={"residual": largest, "r": r[0].tolist()},
-            caption=(
-                f"With the grasp assumed, r = ({point(r[0], 3)}) m leads from the workpiece "
-                f"origin to the flange of {ROBOTS[robot]}; the flange found by forward kinematics "
-                f"of its joint path meets the closure to {largest:.1e} m along the seam."
-            ),
+            obtained={"residual": worst(printed_text(f"pan.{item}"), cases), "r": r.tolist()},
+            caption=caption("closure", robot=ROBOTS[robot]),
         )
 
 
-_closure("pan.eq04", 0, ("r_1", "p_1"))
-_closure("pan.eq05", 1, ("r_2", "p_3"))
+_closure("eq04", 0, ("r_1", "p_1"))
+_closure("eq05", 1, ("r_2", "p_3"))
 
 
-@checks(
-    "pan.eq06",
-    rules=[Residual("residual", "tip of the torch misses p_w by at most [m]", high=1e-9)],
-)
-def seam_in_world(assumed: Assumed) -> Result:
-    """p_w = T_wc p_c, against the tip of the torch by forward kinematics of the welder."""
-    cell, jobs, centre = at_display(assumed)
-    cases = [
-        {"p_w": p, "T_wc": T, "p_c": point}
-        for p, T, point in zip(
-            _lifted(torch_tips(cell, jobs)),
-            cell.piece_pose(centre),
-            _lifted(cell.seam),
-            strict=True,
+def _seam_points(item: str, frame: str, label: str) -> None:
+    """p = T p_c in one frame, against the tip of the torch by forward kinematics of the welder."""
+
+    @checks(f"pan.{item}", rules=[Residual("residual", label, high=1e-9)])
+    def seam_points(assumed: Assumed) -> Result:
+        cell, jobs, centre = at_display(assumed)
+        turn = np.eye(4) if frame == "w" else np.linalg.inv(cell.bases[WELDER])
+        tips, poses = _lifted(torch_tips(cell, jobs)) @ turn.T, turn @ cell.piece_pose(centre)
+        cases = [
+            {f"p_{frame}": tip, f"T_{frame}c": pose, "p_c": seen}
+            for tip, pose, seen in zip(tips, poses, _lifted(cell.seam), strict=True)
+        ]
+        return Result(
+            obtained={"residual": worst(printed_text(f"pan.{item}"), cases)},
+            caption=caption(item, count=cell.count),
         )
-    ]
-    largest = worst(printed_text("pan.eq06"), cases)
-    return Result(
-        obtained={"residual": largest},
-        caption=(
-            "The tip of the torch, from the joint path of the welder, is on p_w to "
-            f"{largest:.1e} m at each of {cell.count} seam points."
-        ),
-    )
 
 
-@checks(
-    "pan.eq07",
-    rules=[Residual("residual", "p_B = T_Bc p_c holds for the welder to [m]", high=1e-9)],
-)
-def seam_in_base(assumed: Assumed) -> Result:
-    """p_B = T_Bc p_c in the frame of base 3, against the tip of the torch in that frame."""
-    cell, jobs, centre = at_display(assumed)
-    to_base = np.linalg.inv(cell.bases[WELDER])
-    found = _lifted(torch_tips(cell, jobs)) @ to_base.T
-    cases = [
-        {"p_B": p, "T_Bc": T, "p_c": point}
-        for p, T, point in zip(
-            found, to_base @ cell.piece_pose(centre), _lifted(cell.seam), strict=True
-        )
-    ]
-    largest = worst(printed_text("pan.eq07"), cases)
-    return Result(
-        obtained={"residual": largest},
-        caption=(
-            f"In the frame of base 3 the tip of the torch is on T_Bc p_c to {largest:.1e} m; "
-            "these are the points the inverse kinematics of the welder is given."
-        ),
-    )
+_seam_points("eq06", "w", "tip of the torch misses p_w by at most [m]")
+_seam_points("eq07", "B", "p_B = T_Bc p_c holds for the welder to [m]")
 
 
 @checks(
@@ -269,14 +206,7 @@ def workpiece_in_base(assumed: Assumed) -> Result:
             given = {"T_Bc": T_Bc, "T_wc": T_wc}
             largest = max(largest, residual(text, {**given, "T_Bw": to_base}))
             wrong = min(wrong, float(np.linalg.norm((base @ T_wc - T_Bc)[:3, 3])))
-    return Result(
-        obtained={"residual": largest, "other": wrong},
-        caption=(
-            "The pose of the workpiece in a carrier's base frame, from its joint path and its "
-            f"grasp, equals T_Bw T_wc to {largest:.1e} with T_Bw the inverse of the pose of the "
-            f"base. With that pose itself in its place it would be off by at least {wrong:.2f} m."
-        ),
-    )
+    return Result(obtained={"residual": largest, "other": wrong}, caption=caption("eq08"))
 
 
 @checks(
@@ -292,20 +222,26 @@ def no_relative_motion(assumed: Assumed) -> Result:
     first, second = (flange_poses(cell, jobs, robot) for robot in range(WELDER))
     relative = np.linalg.inv(first) @ second
     change = abs(relative - relative[0])
-    shift, turn = float(change[:, :3, 3].max()), float(change[:, :3, :3].max())
-    moved = float(np.ptp(first[:, :3, 3], axis=0).max())
     return Result(
-        obtained={"shift": shift, "turn": turn, "moved": moved},
-        caption=(
-            f"While the flange of carrier 1 moves within {moved:.2f} m, the pose of carrier 2 in "
-            f"its frame changes by no more than {shift:.1e} m and {turn:.1e}."
-        ),
+        obtained={
+            "shift": float(change[:, :3, 3].max()),
+            "turn": float(change[:, :3, :3].max()),
+            "moved": float(np.ptp(first[:, :3, 3], axis=0).max()),
+        },
+        caption=caption("claim_tight"),
     )
 
 
 def _lifted(points: np.ndarray) -> np.ndarray:
     """Points (N, 3) in homogeneous coordinates (N, 4)."""
     return np.column_stack([points, np.ones(len(points))])
+
+
+def _between(lever: np.ndarray) -> np.ndarray:
+    """J = [[I, -[r]x], [0, I]] between the twists at two points, r (3,) from one to the other."""
+    J = np.eye(6)
+    J[:3, 3:] = -pin.skew(lever)
+    return J
 
 
 def _screw_velocities(body: pin.SE3, twist: np.ndarray, points: np.ndarray) -> np.ndarray:

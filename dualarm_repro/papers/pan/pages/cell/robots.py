@@ -14,6 +14,7 @@ from .....arms import Arm
 from .....arms.wrist_geometry import wrist_geometry
 from .....errors import DataFileError, UnsupportedArmError
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.captions import captions
 from .....ledger.printed import rounds_to
 from .....scene import posing
 from .....view.arm_drawings import frames_figure
@@ -33,6 +34,7 @@ from ...reading import SHOWN, Job, at_display, at_optimum, job_scene_at
 from .coordination import grip_change
 
 checks = partial(REGISTRY.checks, page="pan/cell")
+caption = captions(__file__)
 
 
 @checks(
@@ -46,17 +48,6 @@ def robot_data(assumed: Assumed) -> Result:
     """DH parameters and limits of the stand-in arm, with their evidence."""
     name, height = assumed["arm"], assumed["shoulder_height"]
     robot, arm = robot_table(name), stand_in(name, height)
-    table = pd.DataFrame(
-        {
-            "joint": [joint.name for joint in robot.joints],
-            "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
-            "a_m": [joint.a for joint in robot.joints],
-            "d_m": [height, *(joint.d for joint in robot.joints[1:])],
-            "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
-            "lower_deg": np.degrees(arm.lower),
-            "upper_deg": np.degrees(arm.upper),
-        }
-    )
     q = arm.random_configurations(20_000, np.random.default_rng(SEED))
     return Result(
         obtained={
@@ -64,11 +55,18 @@ def robot_data(assumed: Assumed) -> Result:
             "largest_measure": float(closed_form(arm, q).max()),
             "evidence": robot.evidence,
         },
-        table=table,
-        caption=(
-            "The document has no table and prints neither parameters nor limits of its robot. "
-            f"Used instead: {robot.title}. Its evidence: {robot.evidence}"
+        table=pd.DataFrame(
+            {
+                "joint": [joint.name for joint in robot.joints],
+                "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
+                "a_m": [joint.a for joint in robot.joints],
+                "d_m": [height, *(joint.d for joint in robot.joints[1:])],
+                "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
+                "lower_deg": np.degrees(arm.lower),
+                "upper_deg": np.degrees(arm.upper),
+            }
         ),
+        caption=caption("tab_none", title=robot.title),
     )
 
 
@@ -91,11 +89,7 @@ def link_frames(assumed: Assumed) -> Result:
     drawn = np.array([np.eye(4), *frames])
     return Result(
         obtained={"axis_error": error, "origins": drawn[:, :3, 3].tolist()},
-        caption=(
-            f"Frames 0 to 6 of the stand-in arm ({arm.name}) at q = 0 in the modified convention. "
-            "The parameters of the ER16 are called known in the document but are not given, so "
-            "the figure cannot be compared."
-        ),
+        caption=caption("fig09", arm=arm.name),
         alt="Seven coordinate frames along an arm with an upright upper arm and a level forearm.",
         figure=lambda: frames_figure(drawn, 0.22),
     )
@@ -117,31 +111,23 @@ def spatial_model(assumed: Assumed) -> Result:
     job = replace(nominal, arm=arm.name, link_radius_scale=assumed["link_radius_scale"])
     return Result(
         obtained={"bare": _bare(arm), "reach": reach},
-        caption=(
-            "The stand-in arm with the capsules that stand for its links; its wrist reaches "
-            f"{reach:.2f} m from axis 1. No drawing of the ER16 was available, so the radii are "
-            "assumed."
-        ),
+        caption=caption("fig10"),
         alt="A six-joint arm drawn as translucent capsules with its skeleton inside.",
         figure=lambda: capsule_figure(job.cell(), np.radians([0, 20, 10, 0, 60, 0]), WELDER),
     )
 
 
-@checks(
-    "pan.claim_bases",
-    rules=[Adopts(name, f"{name} [m]", to=name) for name in BASES],
-)
+@checks("pan.claim_bases", rules=[Adopts(name, f"{name} [m]", to=name) for name in BASES])
 def positions(assumed: Assumed) -> Result:
     """Origins of the base frames that the cell uses."""
     poses = placed_bases(assumed["base_transform"], assumed["base_orientation"])
-    used = dict(zip(BASES, poses[:, :3, 3].tolist(), strict=True))
-    spread = np.linalg.norm(printed_bases()[:, :2], axis=1)
+    listed, used = printed_bases(), poses[:, :3, 3]
     return Result(
-        obtained=used,
-        caption=(
-            f"{_places(poses[:, :3, 3])}, at horizontal distances of "
-            f"{spread[0]:.3f}, {spread[1]:.3f} and {spread[2]:.3f} m from the origin of the world. "
-            "Orientations are not printed for two of them; all are taken as parallel to the world."
+        obtained=dict(zip(BASES, used.tolist(), strict=True)),
+        caption=caption(
+            "claim_bases",
+            gap=np.linalg.norm(used - listed, axis=1).max(),
+            spread=np.linalg.norm(listed[:, :2], axis=1),
         ),
     )
 
@@ -165,20 +151,13 @@ def matrix(assumed: Assumed) -> Result:
     reading = label_reading(printed_text("pan.eq_base", "label"))
     labelled = base_poses(printed[np.newaxis], reading)[0, :3, 3] + 0.0
     as_pose = _listed(base_poses(printed[np.newaxis], "inverted")[0, :3, 3], listed)
-    gap = float(np.linalg.norm(labelled - printed_bases()[0]))
     return Result(
         obtained={
             "matrix": used.tolist(),
             "labelled_is_listed": _listed(labelled, listed) if as_pose else None,
-            "as_labelled": gap,
+            "as_labelled": float(np.linalg.norm(labelled - printed_bases()[0])),
         },
-        caption=(
-            f"As pose of base 1 in the world the matrix {'gives' if as_pose else 'does not give'} "
-            "the listed position. Its label makes it the "
-            f"{'map from world to base' if reading == 'literal' else 'pose'}; then base 1 "
-            f"would stand at ({', '.join(f'{v:g}' for v in labelled)}) m, {gap:.2f} m away from "
-            "the listed position."
-        ),
+        caption=caption("eq_base", listed=as_pose, reading=reading, labelled=labelled),
     )
 
 
@@ -195,11 +174,7 @@ def welding_cell(assumed: Assumed) -> Result:
     index = SHOWN[assumed["display_configuration"]]
     return Result(
         obtained={"closure": grip_change(cell, jobs, centre)},
-        caption=(
-            "Two carriers hold the main pipe by its ends, the welder follows the seam from the "
-            f"other side. Drawn at ({', '.join(f'{v:g}' for v in centre)}) m with the stand-in "
-            "arm; the drawing of the document is not in the text edition."
-        ),
+        caption=caption("fig01", centre=centre),
         alt="Three stick-figure robots around a pipe with a branch, seen from the front and above.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index),
     )
@@ -224,11 +199,7 @@ def real_system(assumed: Assumed) -> Result:
             "feasible": bool(jobs.feasible[0]),
             "separation": float(jobs.separation[0]),
         },
-        caption=(
-            "The document shows a photograph or picture of its hardware, which no computation can "
-            "regenerate; here is the stand-in cell, whose smallest separation on the whole seam is "
-            f"{jobs.separation[0]:.3f} m."
-        ),
+        caption=caption("fig04"),
         alt="Three thick-limbed robots around a pipe with a branch.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, capsules=True),
     )
@@ -244,25 +215,16 @@ def real_system(assumed: Assumed) -> Result:
 def simulation(assumed: Assumed) -> Result:
     """The whole job at the optimum obtained."""
     cell, jobs, centre, measures = at_optimum(assumed)
-    error = _tip_error(cell, jobs, centre)
     return Result(
-        obtained={"tip_error": error, "frames": cell.count},
-        caption=(
-            f"The cell carries out the whole job of {cell.count} seam points at the optimum "
-            f"obtained, with the torch on the seam to {error:.1e} m; the bars beside the bases "
-            "rise with the manipulability of each robot. The mean of the system measure is "
-            f"{measures.system.mean():.3f}. The program of the document is not available."
-        ),
+        obtained={"tip_error": _tip_error(cell, jobs, centre), "frames": cell.count},
+        caption=caption("fig12", measure=measures.system.mean()),
         alt="Three thick-limbed robots at work on the seam of a pipe with a branch.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, capsules=True),
         scene=lambda: job_scene_at("The whole job at the optimum obtained.", cell, jobs, centre),
     )
 
 
-@checks(
-    "pan.claim_teaching",
-    rules=[NoOriginal("experiment", "an experiment with taught robots")],
-)
+@checks("pan.claim_teaching", rules=[NoOriginal("experiment", "an experiment with taught robots")])
 def teaching(assumed: Assumed) -> Result:
     """A statement about practice."""
     return Result(
@@ -286,12 +248,10 @@ def _bare(arm: Arm) -> float:
     posing.place_cores(frames, links.joint, links.local, ends)
     start, along = ends[0, :, 0], ends[0, :, 1] - ends[0, :, 0]
     square = np.maximum(np.sum(along**2, axis=1), 1e-300)
-    depths = []
-    for frame in _joint_frames(arm, np.zeros(arm.nq)):
-        share = np.clip(np.sum((frame[:3, 3] - start) * along, axis=1) / square, 0.0, 1.0)
-        nearest = start + share[:, np.newaxis] * along
-        depths.append((np.linalg.norm(frame[:3, 3] - nearest, axis=1) - links.radius).min())
-    return float(max(depths))
+    joints = np.array(_joint_frames(arm, np.zeros(arm.nq)))[:, np.newaxis, :3, 3]
+    share = np.clip(np.sum((joints - start) * along, axis=-1) / square, 0.0, 1.0)
+    apart = np.linalg.norm(joints - (start + share[..., np.newaxis] * along), axis=-1)
+    return float((apart - links.radius).min(axis=1).max())
 
 
 def _joint_frames(arm: Arm, q: np.ndarray) -> list[np.ndarray]:
@@ -327,10 +287,3 @@ def label_reading(label: str) -> str:
 def _listed(position: np.ndarray, listed: list[str]) -> bool:
     """Whether a position rounds to the listed one."""
     return all(rounds_to(float(v), text) for v, text in zip(position, listed, strict=True))
-
-
-def _places(positions: np.ndarray) -> str:
-    gap = np.linalg.norm(positions - printed_bases(), axis=1).max()
-    if gap < 1e-12:
-        return "The three bases stand where the list puts them"
-    return f"The three bases stand up to {gap:.2f} m from where the list puts them"

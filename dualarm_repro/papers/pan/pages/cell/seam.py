@@ -8,15 +8,16 @@ import numpy as np
 import pandas as pd
 import sympy as sp
 
-from .....errors import DataFileError
 from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....view.pipe_seam import pipes_figure, seam_figure
 from .....welding import WELDER, saddle_seam
-from ...print_forms import printed_text
+from ...print_forms import in_symbols, printed_text
 from ...reading import FlatSeam, SeamModel, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
+caption = captions(__file__)
 
 
 @checks(
@@ -30,36 +31,21 @@ def saddle_curve(assumed: Assumed) -> Result:
     """The printed formula in symbols against both cylinders, and against the points used."""
     model = SeamModel.of(assumed)
     symbols = {name: sp.Symbol(name, positive=True) for name in ("theta", "R_a", "R_b")}
-    x, y, z = _coordinates(symbols)
+    lines = {str(parse(line).sides[0]): line for line in printed_text("pan.eq17")}
+    x, y, z = (in_symbols(lines[axis], 1, **symbols) for axis in "xyz")
     rb, ra = symbols["R_b"], symbols["R_a"]
     on_pipes = sp.simplify(x**2 + y**2 - rb**2) == 0 and sp.simplify(y**2 + z**2 - ra**2) == 0
-    seam = model.seam
-    radii = {ra: model.radius_main, rb: model.radius_branch}
+    seam, radii = model.seam, {ra: model.radius_main, rb: model.radius_branch}
     formula = sp.lambdify(symbols["theta"], [part.subs(radii) for part in (x, y, z)], "numpy")
     printed = np.column_stack(np.broadcast_arrays(seam.theta, *formula(seam.theta)))[:, 1:]
-    difference = float(abs(printed - seam.points).max())
-    height = np.ptp(seam.points[:, 2])
     return Result(
-        obtained={"on_pipes": bool(on_pipes), "points": difference, "height": float(height)},
-        caption=(
-            "The printed curve satisfies the equations of both cylinders identically: a main "
-            "pipe of radius R_a along x and a branch of radius R_b along z. With the radii "
-            f"assumed it rises and falls by {1000 * height:.1f} mm. The root keeps the upper of "
-            "two seams."
-        ),
+        obtained={
+            "on_pipes": bool(on_pipes),
+            "points": float(abs(printed - seam.points).max()),
+            "height": float(np.ptp(seam.points[:, 2])),
+        },
+        caption=caption("eq17"),
     )
-
-
-def _coordinates(symbols: dict[str, sp.Symbol]) -> list[sp.Expr]:
-    """x, y and z of (17) as printed, each from the line that gives it."""
-    printed = {}
-    for line in printed_text("pan.eq17"):
-        name, expression = parse(line).sides
-        loose = {symbol: symbols.get(str(symbol)) for symbol in expression.free_symbols}
-        if None in loose.values():
-            raise DataFileError("printed formula", "name", line, "theta, R_a and R_b alone")
-        printed[str(name)] = expression.subs(loose)
-    return [printed[axis] for axis in "xyz"]
 
 
 @checks(
@@ -69,12 +55,11 @@ def _coordinates(symbols: dict[str, sp.Symbol]) -> list[sp.Expr]:
 def theta_range(assumed: Assumed) -> Result:
     """First value of theta and the end of the last step, of the seam that is used."""
     theta = saddle_seam(0.1, 0.06, round(assumed["seam_points"])).theta
-    count = len(theta)
     return Result(
         obtained={"theta": [float(theta[0]), float(theta[-1] + np.diff(theta).max())]},
         caption=(
-            f"The seam is closed and covered once, by {count} equally spaced points. The interval "
-            "is printed open, which would leave out the point at theta = 0."
+            f"The seam is closed and covered once, by {len(theta)} equally spaced points. The "
+            "interval is printed open, which would leave out the point at theta = 0."
         ),
     )
 
@@ -92,11 +77,7 @@ def workpiece(assumed: Assumed) -> Result:
     length, branch, seam = assumed["workpiece_length"], assumed["branch_length"], model.seam
     return Result(
         obtained={"residual": _residual(model)},
-        caption=(
-            f"Main pipe of radius {model.radius_main:g} m and length {length:g} m along x, branch "
-            f"of radius {model.radius_branch:g} m along z, and the seam where they meet. The "
-            "drawing carries no dimensions, so these are assumed."
-        ),
+        caption=caption("fig05", model=model, length=length),
         alt="A level pipe with a thinner pipe standing on its middle; the seam is a saddle curve.",
         figure=lambda: pipes_figure(seam, model.radius_main, model.radius_branch, length, branch),
     )
@@ -142,12 +123,7 @@ def flat_points(assumed: Assumed) -> Result:
     return Result(
         obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist()},
         table=_table(points),
-        caption=(
-            "Each seam point at the moment it is welded, the workpiece turned about its origin "
-            f"so that the seam is level there: the points fill only {_extent(points)}, against "
-            f"{_extent(seam.points)} on the workpiece. In the flat position the welder therefore "
-            "hardly moves, and the carriers do the work. The rule of the posture is not printed."
-        ),
+        caption=caption("fig07", points=_extent(points), seam=_extent(seam.points)),
         alt="The saddle curve and, smaller above it, the curve of the points as they are welded.",
         figure=lambda: seam_figure({"on the workpiece": seam.points, "as welded, flat": points}),
     )
@@ -173,12 +149,7 @@ def points_in_base(assumed: Assumed) -> Result:
             "mean": points.mean(axis=0).tolist(),
         },
         table=_table(points),
-        caption=(
-            "The points to be welded in the frame of base 3, for the workpiece at "
-            f"({', '.join(f'{v:g}' for v in centre)}) m: {_extent(points)} around "
-            f"({', '.join(f'{v:.3f}' for v in points.mean(axis=0))}) m. The position drawn in the "
-            "document is not given."
-        ),
+        caption=caption("fig08", centre=centre, extent=_extent(points)),
         alt="A small closed curve in the frame of the welder's base.",
         figure=lambda: seam_figure({"in the frame of base 3": points}),
     )
@@ -195,6 +166,5 @@ def _extent(points: np.ndarray) -> str:
 
 
 def _table(points: np.ndarray) -> pd.DataFrame:
-    return (
-        pd.DataFrame(points, columns=["x_m", "y_m", "z_m"]).rename_axis("seam_point").reset_index()
-    )
+    table = pd.DataFrame(points, columns=["x_m", "y_m", "z_m"])
+    return table.rename_axis("seam_point").reset_index()

@@ -10,6 +10,7 @@ from scipy.linalg import block_diag
 
 from .....arms import Arm
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
+from .....ledger.captions import captions
 from .....welding import closed_form
 from .....welding.ellipsoid import gram_matrices
 from .....welding.manipulability import tight_measure
@@ -18,6 +19,7 @@ from ...document import SEED, stand_in
 from ...print_forms import block_matrix, block_residual, printed_text, residual, value, worst
 
 checks = partial(REGISTRY.checks, page="pan/measure")
+caption = captions(__file__)
 _SAMPLES = 500
 
 
@@ -54,31 +56,24 @@ def velocity_ellipsoid(assumed: Assumed) -> Result:
     """Unit joint velocities fill the ellipsoid; the axes are the singular values."""
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     J = arm.jacobian(arm.random_configurations(_SAMPLES, rng))[:, :3]
-    axes = worst(
-        printed_text("pan.eq10", "axes"),
-        [
-            {"sigma_i": np.linalg.svd(one, compute_uv=False), "J": one, "lambda_i": _eigenvalues}
-            for one in J
-        ],
-    )
+    axes = [
+        {"sigma_i": np.linalg.svd(one, compute_uv=False), "J": one, "lambda_i": _eigenvalues}
+        for one in J
+    ]
     inverse = np.linalg.inv(J @ J.transpose(0, 2, 1))
     velocity = np.einsum("nij,nj->ni", J, _unit(rng.normal(size=(_SAMPLES, 6))))
-    inside = float(np.einsum("ni,nij,nj->n", velocity, inverse, velocity).max())
+    inside = np.einsum("ni,nij,nj->n", velocity, inverse, velocity)
     # q_dot = J^T s reaches the surface: it has no part in the null space of J.
     row = _unit(np.einsum("nji,nj->ni", J, rng.normal(size=(_SAMPLES, 3))))
-    extreme = np.einsum("nij,nj->ni", J, row)
-    surface = worst(
-        printed_text("pan.eq10"),
-        [{"x_dot": v[:, np.newaxis], "J": one} for v, one in zip(extreme, J, strict=True)],
-    )
+    extreme = zip(np.einsum("nij,nj->ni", J, row), J, strict=True)
+    cases = [{"x_dot": v[:, np.newaxis], "J": one} for v, one in extreme]
     return Result(
-        obtained={"on_ellipsoid": surface, "inside": inside, "axes": axes},
-        caption=(
-            "Unit joint velocities without a part in the null space of J map onto the ellipsoid "
-            f"(residual {surface:.1e}), all others into it. The unit sphere of "
-            "joint velocities fills it only where J has full row rank. Its axes are the singular "
-            "values of J, which for a matrix that is not symmetric are no eigenvalues."
-        ),
+        obtained={
+            "on_ellipsoid": worst(printed_text("pan.eq10"), cases),
+            "inside": float(inside.max()),
+            "axes": worst(printed_text("pan.eq10", "axes"), axes),
+        },
+        caption=caption("eq10"),
     )
 
 
@@ -95,35 +90,23 @@ def single_measure(assumed: Assumed) -> Result:
     arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
     q = arm.random_configurations(_SAMPLES, rng)
     closed = closed_form(arm, q)
-    difference = worst(
-        printed_text("pan.eq11"),
-        [{"omega": w, "J": J} for w, J in zip(closed, arm.jacobian(q), strict=True)],
-    )
-    levers = rng.normal(size=(_SAMPLES, 3))
-    gram = gram_matrices(arm.chain, np.eye(3), q, levers, 6)
-    tool = float(abs(np.sqrt(np.abs(np.linalg.det(gram))) - closed).max())
+    cases = [{"omega": w, "J": J} for w, J in zip(closed, arm.jacobian(q), strict=True)]
+    gram = gram_matrices(arm.chain, np.eye(3), q, rng.normal(size=(_SAMPLES, 3)), 6)
+    with_tool = np.sqrt(np.abs(np.linalg.det(gram)))
     turned = q + rng.uniform(-np.pi, np.pi, q.shape) * [1, 0, 0, 1, 0, 1]
-    others = float(abs(arm.manipulability(turned) - closed).max())
     return Result(
         obtained={
-            "closed_form": difference,
-            "tool": tool,
-            "axes_1_4_6": others,
+            "closed_form": worst(printed_text("pan.eq11"), cases),
+            "tool": float(abs(with_tool - closed).max()),
+            "axes_1_4_6": float(abs(arm.manipulability(turned) - closed).max()),
             "largest": float(closed.max()),
         },
-        caption=(
-            "For six joints with a spherical wrist omega factors into link lengths, the sine of "
-            "the elbow angle, the distance of the wrist centre from axis 1 and the sine of q5; "
-            f"this equals the determinant to {difference:.1e} m^3. Neither the tool nor joints 1, "
-            "4 and 6 have a part in it. The unit is m^3, since three of the six rows are in "
-            "metres."
-        ),
+        caption=caption("eq11"),
     )
 
 
 @checks(
-    "pan.eq12",
-    rules=[Residual("difference", "X_dot and J Q_dot differ by at most", high=1e-7)],
+    "pan.eq12", rules=[Residual("difference", "X_dot and J Q_dot differ by at most", high=1e-7)]
 )
 def stacked_kinematics(assumed: Assumed) -> Result:
     """Twists of both carriers, one above the other, against central differences."""
@@ -132,14 +115,9 @@ def stacked_kinematics(assumed: Assumed) -> Result:
     J = block_diag(arm.jacobian(q1), arm.jacobian(q2))
     measured = np.concatenate([flange_twist(arm, q1, qd1), flange_twist(arm, q2, qd2)])
     given = {"X_dot": measured, "J": J, "Q_dot": np.concatenate([qd1, qd2])}
-    difference = residual(printed_text("pan.eq12"), given)
     return Result(
-        obtained={"difference": difference},
-        caption=(
-            f"The block matrix maps the {J.shape[1]} joint velocities of both carriers to the "
-            f"{J.shape[0]} entries of their twists, as central differences confirm to "
-            f"{difference:.1e}."
-        ),
+        obtained={"difference": residual(printed_text("pan.eq12"), given)},
+        caption=caption("eq12", shape=J.shape),
     )
 
 
@@ -176,12 +154,7 @@ def stacked_sizes(assumed: Assumed) -> Result:
     defined = (size[1], size[0]) == (printed["Q_dot"][0], printed["X_dot"][0]) if fits else None
     return Result(
         obtained={"stacked": fits, "as_printed": defined, "sizes": printed, "entries": stacked},
-        caption=(
-            f"With the sizes as printed, {_told(printed['X_dot'])} and {_told(printed['Q_dot'])}, "
-            f"the product of (12) is {'' if defined else 'not '}defined. As vectors of "
-            f"{stacked['X_dot']} and {stacked['Q_dot']} entries the velocities "
-            f"{'' if fits else 'do not '}fit the matrix of {rows} x {columns}."
-        ),
+        caption=caption("eq13", rows=rows, columns=columns),
     )
 
 
@@ -215,14 +188,13 @@ def generalized_jacobian(assumed: Assumed) -> Result:
     J = np.vstack([pin.getJointJacobian(both, data, joint, frame) for joint in joints])
     printed = _size(REGISTRY.printed("pan.eq14"), 6, arm.nq)
     blocks = {"J_1": arm.jacobian(q1), "J_2": arm.jacobian(q2)}
-    difference = block_residual(printed_text("pan.eq14", "matrix"), blocks, J)
     return Result(
-        obtained={"difference": difference, "size_agrees": printed == J.shape, "size": printed},
-        caption=(
-            f"In one model of both carriers the Jacobian is {J.shape[0]} x {J.shape[1]}, and the "
-            f"blocks of (14) differ from it by {difference:.1e}. The printed size is "
-            f"{_told(printed)} for m = n = 6; in general it would have to be 2m x 2n."
-        ),
+        obtained={
+            "difference": block_residual(printed_text("pan.eq14", "matrix"), blocks, J),
+            "size_agrees": printed == J.shape,
+            "size": printed,
+        },
+        caption=caption("eq14", shape=J.shape),
     )
 
 
@@ -267,10 +239,6 @@ def _size(entry: dict[str, str], m: int, n: int) -> tuple[int, int]:
     """Rows and columns as printed, for robots of m by n."""
     given = {"m": m, "n": n}
     return int(value(entry["rows"], given)), int(value(entry["columns"], given))
-
-
-def _told(size: tuple[int, int]) -> str:
-    return f"{size[0]} x {size[1]}"
 
 
 def _eigenvalues(matrix: np.ndarray) -> np.ndarray:

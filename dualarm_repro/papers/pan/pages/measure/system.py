@@ -9,9 +9,10 @@ from functools import partial
 import numpy as np
 
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result, Role
+from .....ledger.captions import captions
 from .....view.ellipsoids import beta_figure
 from .....view.welding_cell import cell_figure
-from .....welding import ROBOTS, Measures
+from .....welding import ROBOTS
 from .....welding.ellipsoid import (
     intersection_volume,
     intersection_volume_monte_carlo,
@@ -23,6 +24,7 @@ from ...print_forms import printed_text, value, worst
 from ...reading import SHOWN, Job, Measure, Problem, at_display, optimum
 
 checks = partial(REGISTRY.checks, page="pan/measure")
+caption = captions(__file__)
 _MILLI = 1000.0
 _CASES = 20
 _SAME = 1e-9
@@ -44,24 +46,21 @@ def system_measure(assumed: Assumed) -> Result:
     """The printed weighted mean at one position, and what a change of the unit does to it."""
     problem, (_, jobs, _) = Problem.of(assumed), at_display(assumed)
     found = problem.placement().measures(jobs)
-    gap = worst(printed_text("pan.eq16"), [*_cases(found)])
+    names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
+    rows = np.stack(found)[:, 0].T.tolist()
+    gap = worst(printed_text("pan.eq16"), [dict(zip(names, r, strict=True)) for r in rows])
     powers = unit_powers(problem.job.arm) if gap < _SAME else {}
     best = best_by_unit(problem)
-    moved = float(np.linalg.norm(best["m"] - best["mm"]))
     return Result(
         obtained={
             "residual": gap,
             "one_unit": bool(np.ptp(powers["MMR"]) < _SAME) if powers else None,
             "powers": {name: [min(found), max(found)] for name, found in powers.items()},
-            "moved_by_unit": moved,
+            "moved_by_unit": float(np.linalg.norm(best["m"] - best["mm"])),
             "best_in_metres": best["m"].tolist(),
             "best_in_millimetres": best["mm"].tolist(),
         },
-        caption=_told_powers(powers)
-        + (
-            f" When metres become millimetres the best position moves by {moved:.2f} m, with "
-            "everything else the same (mirror images counted as one)."
-        ),
+        caption=caption("eq16"),
     )
 
 
@@ -79,20 +78,14 @@ def three_ellipsoids(assumed: Assumed) -> Result:
     whole = cell_grams(cell, jobs.q, rows)[:, index]
     values, vectors = np.linalg.eigh(whole)
     extreme = vectors * np.sqrt(values)[:, np.newaxis]
-    fits = float(abs(np.sum(extreme * np.linalg.solve(whole, extreme), axis=1) - 1).max())
+    on_surface = np.sum(extreme * np.linalg.solve(whole, extreme), axis=1)
     grams = whole[:, :3, :3]
-    axes = np.sqrt(np.linalg.eigvalsh(grams))[:, ::-1]
     return Result(
-        obtained={"fits": fits, "semi_axes": axes.tolist()},
-        caption=(
-            "Translational velocity ellipsoids for unit joint velocities, the carriers' at the "
-            "origin of the workpiece and the welder's at the tip of its torch. Longest and "
-            "shortest semi-axes in m/s: "
-            + "; ".join(
-                f"{name} {a[0]:.2f} and {a[2]:.2f}" for name, a in zip(ROBOTS, axes, strict=True)
-            )
-            + ". Neither configuration nor scale of the printed drawing is known."
-        ),
+        obtained={
+            "fits": float(abs(on_surface - 1).max()),
+            "semi_axes": np.sqrt(np.linalg.eigvalsh(grams))[:, ::-1].tolist(),
+        },
+        caption=caption("fig03", robots=ROBOTS),
         alt="Three robots, each with a translucent ellipsoid at the point where it acts.",
         figure=lambda: cell_figure(cell, jobs.q[0], centre, index=index, grams=grams),
     )
@@ -105,7 +98,7 @@ def three_ellipsoids(assumed: Assumed) -> Result:
             "follows_rule",
             "the weights used in (16) are the ratios of the intersection to the ellipsoids",
             value=True,
-        ),
+        )
     ],
 )
 def weights(assumed: Assumed) -> Result:
@@ -122,10 +115,9 @@ def weights(assumed: Assumed) -> Result:
     by_rule = tight / (tight + ratios[2])
     share = (used.beta_tight / (used.beta_tight + used.beta_loose))[0]
     gap = float(abs(share - by_rule).max())
-    sampled, error = intersection_volume_monte_carlo(
-        grams[:, 0], 20_000, np.random.default_rng(SEED)
-    )
-    exact = intersection_volume(grams[:, 0])
+    first, rng = grams[:, 0], np.random.default_rng(SEED)
+    sampled, error = intersection_volume_monte_carlo(first, 20_000, rng)
+    exact = intersection_volume(first)
     return Result(
         obtained={
             "follows_rule": gap < 1e-9,
@@ -135,15 +127,7 @@ def weights(assumed: Assumed) -> Result:
             "intersection": exact,
             "mean_share_of_carriers": float(share.mean()),
         },
-        caption=(
-            "At the first seam point the ellipsoids have volumes "
-            f"{', '.join(f'{v:.2f}' for v in volumes[:, 0])} and a common part of {exact:.2f} "
-            f"(quadrature; Monte Carlo {sampled:.2f} +- {error:.2f}). The share of the carriers "
-            f"in the weights of (16) differs from that of the printed rule by at most {gap:.1e}. "
-            "One intersection stands in every ratio and cancels. What remains are inverse "
-            "volumes, which give the less mobile group the larger say: the carriers have "
-            f"{share.mean():.0%} of the weight on average."
-        ),
+        caption=caption("claim_beta_rule", sampled=sampled, error=error),
         alt="Volumes of three ellipsoids and of their common part, and weights along the seam.",
         figure=lambda: beta_figure(volumes, common, share),
     )
@@ -183,27 +167,6 @@ def unit_powers(arm_name: str) -> dict[str, list[float]]:
         for name, entries in powers.items():
             entries.append(float(np.log(found[1][name] / found[0][name]) / np.log(_MILLI)))
     return powers
-
-
-def _told_powers(powers: dict[str, list[float]]) -> str:
-    if not powers:
-        return "The printed (16) is not the measure used."
-    low, high = min(powers["MMR"]), max(powers["MMR"])
-    told = (
-        f"With the unit of length M_tight changes by the power {powers['M_tight'][0]:.0f} and "
-        f"M_loose by the power {powers['M_loose'][0]:.0f}; "
-    )
-    if high - low < _SAME:
-        return told + f"MMR changes by the power {low:.0f}."
-    return told + (
-        f"MMR by powers from {low:.2f} to {high:.2f}, which depend on the configuration, so that "
-        "it has no unit and the best position depends on the unit chosen."
-    )
-
-
-def _cases(found: Measures) -> list[dict[str, float]]:
-    names = ("M_tight", "M_loose", "MMR", "beta_1", "beta_2")
-    return [dict(zip(names, map(float, row), strict=True)) for row in np.stack(found)[:, 0].T]
 
 
 def _volumes(grams: np.ndarray) -> np.ndarray:

@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.seam_curves import joints_figure, measures_figure
-from .....welding import (
-    ROBOTS,
-    WELDER,
-    Cell,
-    Jobs,
-    closed_form,
-    flange_poses,
-    joint_margin,
-)
+from .....welding import ROBOTS, WELDER, Cell, Jobs, closed_form, flange_poses, joint_margin
 from ...document import SEED, stand_in
 from ...reading import (
     Measure,
@@ -28,14 +19,15 @@ from ...reading import (
     at_optimum,
     job_scene_at,
     measures_at,
+    nothing_feasible,
     optimum,
     poor_position,
     solved,
     status_name,
 )
-from .problem import nothing_feasible
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
+caption = captions(__file__)
 #: The position of the lowest welder is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
@@ -62,12 +54,7 @@ def optimal_curves(assumed: Assumed) -> Result:
             "range": [float(measures.system.min()), float(measures.system.max())],
         },
         table=curve_table(w, measures.system, assumed["time_axis"]),
-        caption=(
-            f"At the optimum the system measure stays between {measures.system.min():.3f} and "
-            f"{measures.system.max():.3f}; the welder's lies between {w[2].min():.3f} and "
-            f"{w[2].max():.3f} m^3, since in the flat position it hardly moves. Values of the "
-            "printed curves are not known, nor which measures they show."
-        ),
+        caption=caption("fig16", w=w[WELDER]),
         alt="Manipulability of three robots and of the system along the seam, well above zero.",
         figure=lambda: measures_figure({"at the optimum": (w, measures)}),
     )
@@ -89,28 +76,23 @@ def joint_curves(assumed: Assumed) -> Result:
     """Joint angles along the seam at the optimum."""
     cell, jobs, centre, _ = at_optimum(assumed)
     q = jobs.q[0]
-    closing = q[:, -1] + np.round((q[:, 0] - q[:, -1]) / (2 * np.pi)) * 2 * np.pi
+    turns = np.round((q[:, 0] - q[:, -1]) / (2 * np.pi))
     span = np.degrees(np.ptp(q, axis=1))
     columns = {
         f"{name} q{j + 1}": np.degrees(q[k, :, j])
         for k, name in enumerate(ROBOTS)
         for j in range(6)
     }
-    margin = float(np.degrees(joint_margin(cell, jobs)))
     return Result(
         obtained={
             "carried": _carried(cell, jobs, centre),
-            "turns": float(np.round(abs(closing - q[:, -1]) / (2 * np.pi)).max()),
-            "joint_margin": margin,
+            "turns": float(abs(turns).max()),
+            "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "span_deg": span.tolist(),
             "branches": jobs.branch[0].tolist(),
         },
         table=pd.DataFrame(columns).rename_axis(assumed["time_axis"]).reset_index(),
-        caption=(
-            "Joint paths at the optimum, each on one branch, closed after one turn and at least "
-            f"{margin:.1f} deg within limits. The carriers' joints sweep up to "
-            f"{span[:2].max():.0f} deg, the welder's {span[2, :5].max():.0f} deg."
-        ),
+        caption=caption("fig17"),
         alt="Six joint angles of each of three robots along the seam, smooth and periodic.",
         figure=lambda: joints_figure(cell, q),
     )
@@ -124,11 +106,11 @@ def largest_measure(arm: str) -> float:
     return float(closed_form(model, q).max())
 
 
-def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
+def _poor_figure(item: str, letter: str) -> None:
     """Curves and scene at one of the two positions, beside the curves at the optimum."""
 
     @checks(
-        item,
+        f"pan.{item}",
         rules=[
             Residual(
                 "recomputed",
@@ -154,27 +136,15 @@ def _poor_figure(item: str, letter: str, describe: Callable[..., str]) -> None:
                 "position": centre.tolist(),
             },
             table=curve_table(jobs.w[0], measures.system, assumed["time_axis"]),
-            caption=(
-                f"Position ({letter}), found by the stated rule: ({point(centre, 3)}) m, "
-                f"{status_name(jobs)}. {describe(here)} Its mean is "
-                f"{here.mean() / there.mean():.0%} of that at the optimum."
-            ),
+            caption=caption(item, status=status_name(jobs), curve=here),
             alt=f"Manipulability curves at position ({letter}) beside those at the optimum.",
             figure=lambda: measures_figure(panels),
             scene=lambda: job_scene_at(f"The job at position ({letter}).", cell, jobs, centre),
         )
 
 
-_poor_figure(
-    "pan.fig18",
-    "a",
-    lambda w: f"The welder's manipulability lies between {w.min():.3f} and {w.max():.3f} m^3.",
-)
-_poor_figure(
-    "pan.fig19",
-    "b",
-    lambda m: f"The system measure swings between {m.min():.3f} and {m.max():.3f}.",
-)
+_poor_figure("fig18", "a")
+_poor_figure("fig19", "b")
 
 
 @checks(
@@ -184,7 +154,7 @@ _poor_figure(
             "largest_share",
             "welder's largest manipulability on the seam, as a share of the arm's largest",
             high="near_zero",
-        ),
+        )
     ],
 )
 def near_zero(assumed: Assumed) -> Result:
@@ -197,13 +167,7 @@ def near_zero(assumed: Assumed) -> Result:
     share = float(jobs.w[0, WELDER].max() / largest_measure(job.arm))
     return Result(
         obtained={"largest_share": share, "position": best.position.tolist()},
-        caption=(
-            "The text has the welder's curve near zero on the whole seam. At the poor position "
-            f"found, ({point(best.position, 3)}) m, it rises to {share:.1%} of the largest "
-            "manipulability of the arm somewhere on the seam, with a torch of "
-            f"{job.torch_length:g} m bent by {job.torch_crank:g} deg. How low it can stay depends "
-            "on the torch, whose shape and working angle are not printed."
-        ),
+        caption=caption("claim_near_zero_robot3", job=job),
     )
 
 
@@ -214,7 +178,7 @@ def near_zero(assumed: Assumed) -> Result:
             "swing",
             "range of the system measure along the seam over its maximum, at position (b)",
             low="unsteady",
-        ),
+        )
     ],
 )
 def unsteady(assumed: Assumed) -> Result:
@@ -224,14 +188,13 @@ def unsteady(assumed: Assumed) -> Result:
     if not poor.fitness:
         return nothing_feasible("swing", "position")
     system = measures_at(problem, poor.position).system
-    swing = float(np.ptp(system) / system.max())
     return Result(
-        obtained={"swing": swing, "position": poor.position.tolist()},
-        caption=(
-            f"At the least steady position, ({point(poor.position, 3)}) m, the system measure "
-            f"loses {swing:.0%} of its maximum along the seam. The text connects this with "
-            "unreachable points or collisions; the position found is "
-            f"{status_name(solved(problem.job, tuple(poor.position)))}."
+        obtained={
+            "swing": float(np.ptp(system) / system.max()),
+            "position": poor.position.tolist(),
+        },
+        caption=caption(
+            "claim_unstable_b", status=status_name(solved(problem.job, tuple(poor.position)))
         ),
     )
 
@@ -244,12 +207,9 @@ def curve_table(w: np.ndarray, system: np.ndarray, axis: str) -> pd.DataFrame:
 
 def _carried(cell: Cell, jobs: Jobs, centre: np.ndarray) -> float:
     """Largest difference of the flange poses by forward kinematics to those of the job."""
-    worst = 0.0
-    for robot in range(len(ROBOTS)):
-        wanted = cell.flanges[robot].copy()
-        wanted[:, :3, 3] += centre
-        worst = max(worst, float(abs(flange_poses(cell, jobs, robot) - wanted).max()))
-    return worst
+    wanted, robots = cell.flanges.copy(), range(len(ROBOTS))
+    wanted[..., :3, 3] += centre
+    return float(abs([flange_poses(cell, jobs, robot) for robot in robots] - wanted).max())
 
 
 def _recomputed(cell: Cell, jobs: Jobs) -> float:

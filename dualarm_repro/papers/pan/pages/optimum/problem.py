@@ -12,15 +12,25 @@ import pandas as pd
 
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.landscape import slices_figure
 from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
 from .....welding.motion import smallest_rank
 from ...document import printed_optimum
 from ...print_forms import holds, printed_text, value
-from ...reading import SPACING, Problem, denser, measures_at, optimum, solved, surveyed
+from ...reading import (
+    SPACING,
+    Problem,
+    denser,
+    measures_at,
+    nothing_feasible,
+    optimum,
+    solved,
+    surveyed,
+)
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
+caption = captions(__file__)
 _CONSTRAINTS = {
     "joint angles within limits": Status.JOINT_LIMITS,
     "away from singularities": Status.SINGULAR,
@@ -57,29 +67,20 @@ def problem(assumed: Assumed) -> Result:
     second = grid.points + 0.5 * SPACING
     values = placement(second[(second <= bounds[:, 1]).all(axis=1)])
     gap = _objective_gap(task, best)
-    better = int((values > best.fitness * (1 + 1e-9)).sum())
-    disagreements = constraint_disagreements(task, grid.status)
     edge = float(np.minimum(best.position - bounds[:, 0], bounds[:, 1] - best.position).min())
-    share = float((grid.fitness > 0).mean())
     return Result(
         obtained={
             "variables": list("xyz")[: len(best.position)],
             "objective_is_printed": gap < _SAME,
             "objective_gap": gap,
-            "disagreements": disagreements,
-            "better": better,
-            "feasible_share": share,
+            "disagreements": constraint_disagreements(task, grid.status),
+            "better": int((values > best.fitness * (1 + 1e-9)).sum()),
+            "feasible_share": float((grid.fitness > 0).mean()),
             "to_edge": edge,
             "optimum": best.position.tolist(),
             "fitness": best.fitness,
         },
-        caption=(
-            f"The constraints leave {share:.1%} of the region. The best fitness, "
-            f"{best.fitness:.4f}, is taken at ({point(best.position, 3)}) m, {edge:.2f} m from "
-            f"the edge of the region; of a second grid of {len(values)} points {better} are "
-            "better. The printed constraints, evaluated on joint paths one by "
-            f"one, disagree with the search at {disagreements} positions."
-        ),
+        caption=caption("eq_opt", second=len(values)),
         alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",
         figure=lambda: slices_figure(
             placement, bounds, best.position, best.fitness, printed_optimum()
@@ -109,32 +110,21 @@ def constraints(assumed: Assumed) -> Result:
     reached = bool(np.isfinite(jobs.q).all())
     status = surveyed(task).status
     excluded = {name: float((status == cause).mean()) for name, cause in _CONSTRAINTS.items()}
-    told = ", ".join(f"{name} {share:.1%}" for name, share in excluded.items())
     obtained = {"count": len(set(Status)) - 1, "reached": reached, "excluded": excluded}
     if not reached:
         missing = dict.fromkeys(("separation", "joint_margin", "rank"))
-        return Result(
-            obtained=obtained | missing,
-            caption="At the optimum some points of a denser seam are out of reach. Tested in turn "
-            f"the constraints exclude of the region: {told}.",
-        )
-    nearest, margin = _nearest_pairs(cell, jobs), float(np.degrees(joint_margin(cell, jobs)))
+        return Result(obtained=obtained | missing, caption=caption("claim_constraints"))
+    nearest = _nearest_pairs(cell, jobs)
     return Result(
         obtained=obtained
         | {
             "separation": float(nearest.iloc[0]),
-            "joint_margin": margin,
+            "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "rank": smallest_rank(cell, jobs),
             "separations": nearest.to_dict(),
         },
         table=nearest.rename("separation_m").rename_axis("pair").reset_index(),
-        caption=(
-            f"At the optimum, on a seam of {fine.seam_points} points, the nearest pair "
-            f"({nearest.index[0]}) is {nearest.iloc[0]:.3f} m apart and the nearest joint limit "
-            f"{margin:.1f} deg away. Tested in turn the constraints exclude of the region: "
-            f"{told}. Of the pairs, torch and workpiece have the same distance at every position, "
-            "since both follow the seam; the others are given one by one for that reason."
-        ),
+        caption=caption("claim_constraints", points=fine.seam_points),
     )
 
 
@@ -217,11 +207,3 @@ def _nearest_pairs(cell: Cell, jobs: Jobs) -> pd.Series:
     pairs = separation.per_pair(jobs.q, jobs.centres)[0]
     owners = pd.Series(pairs, index=[" - ".join(pair) for pair in separation.owners])
     return owners.groupby(level=0).min().sort_values()
-
-
-def nothing_feasible(*keys: str) -> Result:
-    """The outcome in a region without a feasible position."""
-    return Result(
-        obtained=dict.fromkeys(keys),
-        caption="No position of the region is feasible, so the problem has no solution.",
-    )

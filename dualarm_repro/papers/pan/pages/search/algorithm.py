@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from .....ledger.captions import captions
 from .....view.diagrams import loop_chart
 from .....view.search_plots import history_figure
 from .....welding import Trace, genetic
@@ -18,6 +19,7 @@ from ...reading import Genetic, Problem, traced
 from ...studies.evolution import RUNS, VARIANTS, stored_runs
 
 checks = partial(REGISTRY.checks, page="pan/search")
+caption = captions(__file__)
 
 
 def declared_trace(**changes: Any) -> Trace:
@@ -38,7 +40,6 @@ def declared_trace(**changes: Any) -> Trace:
 def chart(assumed: Assumed) -> Result:
     """A run is watched; the chart is drawn from the list of acts that it runs."""
     trace, adaptive = declared_trace(), declared_trace(ga_mutation="adaptive_feasible")
-    elite, crossed, mutants = trace.settings.counts
     return Result(
         obtained={
             "inputs": seen_inputs(trace),
@@ -46,13 +47,7 @@ def chart(assumed: Assumed) -> Result:
             "stops": seen_stops([trace, adaptive]),
             "acts": [act.__name__ for act in (genetic.initialise, *genetic.LOOP)],
         },
-        caption=(
-            f"The loop that is run, drawn from its own functions. In the run watched, of "
-            f"{trace.settings.population} individuals {elite} passed on unchanged, at least "
-            f"{min(trace.crossed)} took every coordinate from a parent ({crossed} crossed) and up "
-            f"to {max(trace.mutated)} were new ({mutants} mutants). The content of the printed "
-            "chart is not in the text edition."
-        ),
+        caption=caption("fig11", trace=trace),
         alt="Flow chart: draw, evaluate, rank, decide, select, reproduce, and back to evaluate.",
         figure=lambda: loop_chart(genetic.initialise, genetic.LOOP, genetic.finished),
     )
@@ -125,18 +120,9 @@ def two_stop_rules(assumed: Assumed) -> Result:
     by_limit, by_stall = (
         sum(found[why] for found in ends.values()) for why in ("generations", "stall")
     )
-    told = "; ".join(
-        f"{name}: {found['generations']} by the limit, {found['stall']} by the stall"
-        for name, found in ends.items()
-    )
     return Result(
         obtained={"other_ends": other, "by_limit": by_limit, "by_stall": by_stall, "ends": ends},
-        caption=(
-            f"{RUNS} runs of each variant, ended by either rule: {told}. {other} of them "
-            "ended elsewhere than where the printed rules, recomputed from the mean fitness, "
-            "first hold. With mutation that keeps drawing, the mean fitness never rests, so that "
-            "which rule ends a run depends on an operator and a threshold that are not printed."
-        ),
+        caption=caption("claim_ga_stop", runs=RUNS),
     )
 
 
@@ -155,21 +141,15 @@ def discarded(assumed: Assumed) -> Result:
     """What becomes of infeasible individuals in a run that is watched."""
     trace = declared_trace()
     share = 1 - np.array([[g.feasible for g in trace.history]])
-    parents = trace.infeasible_parents
     return Result(
         obtained={
             "infeasible_passed_on": int(trace.infeasible_passed_on),
             "best_infeasible": int(trace.history[-1].best <= 0),
             "first": float(share[0, 0]),
             "last": float(share[0, -1]),
-            "parents": float(np.mean(parents)),
+            "parents": float(np.mean(trace.infeasible_parents)),
         },
-        caption=(
-            f"Of the first generation {share[0, 0]:.0%} violate a constraint, of the last "
-            f"{share[0, -1]:.0%}. {trace.infeasible_passed_on} of them passed on while there were "
-            f"feasible ones enough. As parents they still make up {np.mean(parents):.0%} of those "
-            "selected, because selection by rank leaves a chance to the last."
-        ),
+        caption=caption("claim_discard"),
         alt="Share of infeasible individuals against the generation, falling from nearly one.",
         figure=lambda: history_figure({"infeasible": share}, "share of the generation"),
     )

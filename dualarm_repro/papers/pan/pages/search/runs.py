@@ -11,17 +11,19 @@ import pandas as pd
 from scipy.stats import spearmanr
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.search_plots import best_individual_figure, history_figure, optimisers_figure
 from .....welding import Evolution
 from ...document import printed_optimum
-from ...reading import DENSER, Genetic, Problem, denser, one_run, optimum, solved
+from ...reading import DENSER, Genetic, Problem, denser, nothing_feasible, one_run, optimum, solved
 from ...studies.evolution import Runs, stored_runs
 from ...studies.optimisers import BUDGET, OPTIMISERS, TRUTH
 
 checks = partial(REGISTRY.checks, page="pan/search")
+caption = captions(__file__)
 #: Draws of the assumptions for items that need a genetic run each.
 _DRAWS = 16
+_NOTHING = "No individual of the run is feasible, so there is nothing to judge."
 
 
 @checks(
@@ -39,24 +41,17 @@ def best_individual(assumed: Assumed) -> Result:
     """Best individual of every run."""
     runs = stored_runs(round(assumed["ga_seeds"]))
     problem = Problem.of(REGISTRY.nominal("pan"))
-    again = problem.placement()(runs.best)
-    gap = float(1 - runs.fitness.min() / optimum(problem).fitness)
-    printed = printed_optimum()
+    again, printed = problem.placement()(runs.best), printed_optimum()
     distance = np.linalg.norm(runs.best - printed, axis=1)
     return Result(
         obtained={
             "recomputed": float(abs(again - runs.fitness).max()),
-            "gap": gap,
+            "gap": float(1 - runs.fitness.min() / optimum(problem).fitness),
             "best": runs.best[0].tolist(),
             "distance_to_printed": float(distance.min()),
         },
         table=pd.DataFrame(runs.best, columns=["x_m", "y_m", "z_m"]).assign(fitness=runs.fitness),
-        caption=(
-            f"All {len(runs.best)} runs come within {100 * gap:.3f} % of the ground truth. Which "
-            "of two mirror images they return is chance, and x scatters most, since the fitness "
-            f"is flat along it. The first run ends at ({point(runs.best[0], 3)}) m, "
-            f"{distance[0]:.2f} m from the printed point."
-        ),
+        caption=caption("fig13", runs=runs, first=distance[0]),
         alt="Bars of the three coordinates of the best individual beside the printed coordinates.",
         figure=lambda: best_individual_figure(runs.best, printed),
     )
@@ -86,12 +81,7 @@ def fitness_curves(assumed: Assumed) -> Result:
             "mean_last": float(np.median(mean[:, -1])),
         },
         table=_history_table(runs, ("best", "mean")),
-        caption=(
-            f"Best and mean fitness of {len(best)} runs (median, band of all). The best settles "
-            f"at {np.median(best[:, -1]):.3f}; the mean, in which infeasible individuals count as "
-            f"0, ends at {np.median(mean[:, -1]):.3f}. It rises late because the mutations shrink "
-            "to nothing by the last generation. No value of the printed curves is known."
-        ),
+        caption=caption("fig14", runs=len(best)),
         alt="Two rising curves against the generation; the upper one is flat for most of the run.",
         figure=lambda: history_figure({"best": best, "mean": mean}, "fitness"),
     )
@@ -110,8 +100,7 @@ def distance_curve(assumed: Assumed) -> Result:
     """Mean distance between individuals over the generations."""
     runs = stored_runs(round(assumed["ga_seeds"]))
     distance = runs.histories["distance"]
-    box = Problem.of(REGISTRY.nominal("pan")).box
-    diagonal = float(np.linalg.norm(np.diff(box, axis=1)))
+    diagonal = np.linalg.norm(np.diff(Problem.of(REGISTRY.nominal("pan")).box, axis=1))
     return Result(
         obtained={
             "outside": float(np.maximum(distance - diagonal, 0.0).max()),
@@ -119,10 +108,7 @@ def distance_curve(assumed: Assumed) -> Result:
             "last": float(np.median(distance[:, -1])),
         },
         table=_history_table(runs, ("distance",)),
-        caption=(
-            f"Mean distance between the individuals of {len(distance)} runs: from "
-            f"{np.median(distance[:, 0]):.2f} m to {np.median(distance[:, -1]):.3f} m (medians)."
-        ),
+        caption=caption("fig15", runs=len(distance)),
         alt="A falling curve of the mean distance against the generation.",
         figure=lambda: history_figure({"mean distance": distance}, "distance [m]"),
     )
@@ -146,16 +132,13 @@ def fitness_converges(assumed: Assumed) -> Result:
     run, truth = run_of(assumed), optimum(Problem.of(assumed))
     best = np.array([generation.best for generation in run.history])
     if not run.found:
-        return _nothing_feasible("late_gain", "gap")
-    gain = float(1 - best[3 * len(best) // 4] / best[-1])
-    gap = float(1 - best[-1] / max(truth.fitness, best[-1]))
+        return nothing_feasible("late_gain", "gap", told=_NOTHING)
     return Result(
-        obtained={"late_gain": gain, "gap": gap},
-        caption=(
-            f"In the last quarter of its {len(best)} generations the best fitness gains "
-            f"{gain:.2%}, and it ends {gap:.3%} below the ground truth. That it never falls "
-            "follows from passing on the best."
-        ),
+        obtained={
+            "late_gain": float(1 - best[3 * len(best) // 4] / best[-1]),
+            "gap": float(1 - best[-1] / max(truth.fitness, best[-1])),
+        },
+        caption=caption("claim_fitness_converges", generations=len(best)),
     )
 
 
@@ -171,20 +154,12 @@ def distance_to_zero(assumed: Assumed) -> Result:
     """Mean distance in the last generation relative to the first, and its trend."""
     run = run_of(assumed)
     distance = np.array([generation.distance for generation in run.history])
-    ratio = float(distance[-1] / distance[0])
-    trend = float(spearmanr(np.arange(len(distance)), distance).statistic)
-    schedule = (
-        "The noise of the mutations is scheduled to vanish with the last generation, which "
-        "builds the fall in."
-        if assumed["ga_mutation"] == "gaussian"
-        else "The mutations adapt their step."
-    )
     return Result(
-        obtained={"ratio": ratio, "trend": trend},
-        caption=(
-            f"The mean distance changes to {ratio:.2%} of its first value, with a rank "
-            f"correlation of {trend:.2f} with the generation. {schedule}"
-        ),
+        obtained={
+            "ratio": float(distance[-1] / distance[0]),
+            "trend": float(spearmanr(np.arange(len(distance)), distance).statistic),
+        },
+        caption=caption("claim_distance_to_zero", mutation=assumed["ga_mutation"]),
     )
 
 
@@ -204,28 +179,18 @@ def largest_measure(assumed: Assumed) -> Result:
     """One run against a refined grid, and its result on a denser seam."""
     run, problem = run_of(assumed), Problem.of(assumed)
     if not run.found:
-        return _nothing_feasible("gap", "violated")
+        return nothing_feasible("gap", "violated", told=_NOTHING)
     truth = max(optimum(problem).fitness, run.fitness)
-    gap = float(1 - run.fitness / truth)
-    violated = int(not solved(denser(problem.job), tuple(run.best)).feasible[0])
-    peers, told = _peers(assumed, truth)
+    peers, told = _peers(truth)
     return Result(
-        obtained={"gap": gap, "violated": violated, "truth": truth, "within_0.1_percent": told},
+        obtained={
+            "gap": float(1 - run.fitness / truth),
+            "violated": int(not solved(denser(problem.job), tuple(run.best)).feasible[0]),
+            "truth": truth,
+            "within_0.1_percent": told,
+        },
         table=peers,
-        caption=(
-            f"A run ends {100 * gap:.3f} % below the ground truth, at a position that "
-            f"{'violates a constraint' if violated else 'meets every constraint'} on a seam of "
-            f"{DENSER} times as many points. "
-            + (
-                "With the same number of evaluations 0.1 % is reached in "
-                + ", ".join(f"{count} ({name})" for name, count in told.items())
-                + " of ten runs: others are more exact. "
-                if told
-                else ""
-            )
-            + "Two mirror images can be equally good, so that no single point is the global "
-            "maximum."
-        ),
+        caption=caption("claim_max_mmr", denser=DENSER, within=told),
         alt="Gap to the ground truth and computing time of seven optimisers, ten runs each.",
         figure=lambda: optimisers_figure(
             OPTIMISERS.load().query("optimiser != @TRUTH"), truth, BUDGET
@@ -233,7 +198,7 @@ def largest_measure(assumed: Assumed) -> Result:
     )
 
 
-def _peers(assumed: Mapping[str, Any], truth: float) -> tuple[pd.DataFrame | None, dict[str, int]]:
+def _peers(truth: float) -> tuple[pd.DataFrame | None, dict[str, int]]:
     """Stored runs of all optimisers, and how many come near; none for another problem."""
     table = OPTIMISERS.load()
     peers = table[table["optimiser"] != TRUTH]
@@ -243,13 +208,6 @@ def _peers(assumed: Mapping[str, Any], truth: float) -> tuple[pd.DataFrame | Non
     hits = peers.assign(hit=peers["fitness"] >= 0.999 * stored)
     within = hits.groupby("optimiser", sort=False)["hit"].sum()
     return peers, {str(name): int(count) for name, count in within.items()}
-
-
-def _nothing_feasible(*keys: str) -> Result:
-    return Result(
-        obtained=dict.fromkeys(keys),
-        caption="No individual of the run is feasible, so there is nothing to judge.",
-    )
 
 
 def _history_table(runs: Runs, names: tuple[str, ...]) -> pd.DataFrame:

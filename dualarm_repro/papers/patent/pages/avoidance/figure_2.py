@@ -13,6 +13,7 @@ from .....control.motion import Motion
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....ledger.captions import captions
 from .....view.arm_drawings import skeleton
 from .....view.control_figures import comparison_figure
 from .....view.scene3d import Scene3D
@@ -21,6 +22,7 @@ from ...document import run
 from ...reading import AVOIDANCE, controller_settings, crossing
 
 checks = partial(REGISTRY.checks, page="patent/avoidance")
+caption = captions(__file__)
 
 
 @checks(
@@ -62,16 +64,7 @@ def comparison(assumed: Assumed) -> Result:
             "energy_ratio": motion.energy / naive.energy,
         },
         table=table,
-        caption=(
-            f"{scenario.title}. The same circles in {scenario.period:g} s: without the avoidance "
-            f"rows their smallest distance is {1e3 * naive.smallest_distance:.0f} mm, with them "
-            f"they stay {1e3 * motion.smallest_distance:.1f} mm apart, and the tips leave their "
-            f"paths by no more than {1e6 * max(naive.largest_error, motion.largest_error):.0f} um, "
-            f"where they move up to {1e6 * fastest * dt:.0f} um in a step. Avoidance is paid in "
-            "joint motion: the integral of the squared speed changes by a factor of "
-            f"{motion.energy / naive.energy:.2f}, the largest acceleration from "
-            f"{naive.peak_acceleration:.1f} to {motion.peak_acceleration:.1f} rad/s^2."
-        ),
+        caption=caption("fig02", scenario=scenario, naive=naive, motion=motion, step=fastest * dt),
         alt=(
             "Two pictures of two arms, crossing each other without avoidance and apart with it; "
             "below, their distance over time, which falls below zero without avoidance and stays "

@@ -17,6 +17,7 @@ from .....control.operations import control_cost, network_control_cost
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
+from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.control_figures import damper_figure
 from ...document import COARSE_STEP, CONTROL_STEP, frozen, run
@@ -24,6 +25,7 @@ from ...reading import LIMITS, controller_settings
 from .random_tasks import counted_tasks
 
 checks = partial(REGISTRY.checks, page="patent/avoidance")
+caption = captions(__file__)
 
 
 @checks(
@@ -57,14 +59,7 @@ def respects_limits(assumed: Assumed) -> Result:
             "network_speed_excess": speeds[2],
             "fast_slack": float(motions[1].slack.max()),
         },
-        caption=(
-            f"Angle, one turn in {slow.period:g} s, excess over the limits (negative inside): "
-            f"pseudo-inverse {angles[0]:+.3f}, QP {angles[1]:+.4f}, network {angles[2]:+.4f} rad. "
-            f"Speed, the same turn in {fast.period:g} s: {speeds[0]:+.3f}, {speeds[1]:+.4f} and "
-            f"{speeds[2]:+.4f} rad/s. The QP gives up the path where it has to, by up to "
-            f"{motions[1].slack.max():.2f} m/s here; the network keeps to the path, and its "
-            "bounds are soft."
-        ),
+        caption=caption("claim_limits", slow=slow.period, fast=fast.period),
     )
 
 
@@ -105,14 +100,8 @@ def two_ranges(assumed: Assumed) -> Result:
             "start_distance": float(start.distance[0]),
             "inside_share": float(inside.mean()),
         },
-        caption=(
-            f"The nearest pair is inside d1 for {inside.mean():.0%} of the time. Outside, the "
-            "joint velocity differs from that without avoidance by at most "
-            f"{changed[~inside].max(initial=0.0):.1e} rad/s, inside by up to "
-            f"{changed[inside].max(initial=0.0):.2f} rad/s, and the distance ends up at "
-            f"{1e3 * motion.smallest_distance:.1f} mm. A second scenario starts "
-            f"{1e3 * start.distance[0]:.1f} mm apart and ends {1e3 * start.distance[-1]:.0f} mm "
-            "apart."
+        caption=caption(
+            "claim_two_ranges", distance=motion.smallest_distance, end=start.distance[-1]
         ),
         alt="Distance between two ranges, approach speed below its falling bound, and number of "
         "rows over time.",
@@ -163,14 +152,7 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
             f"{name}_step_us": 1e6 * _step_seconds(near, s)
             for name, s in (("pinv", pseudo_inverse(settings)), ("qp", settings))
         },
-        caption=(
-            "The QP takes constraints into account that the pseudo-inverse cannot express: of "
-            f"{len(counted)} random tasks the pseudo-inverse leaves a joint range in {leave:.0%} "
-            f"and collides in {counted['collides'].mean():.1%}. A whole step takes "
-            f"{steps['qp']:.0f} operations with the QP and {steps['network']:.0f} with the "
-            f"network, kinematics and distances included: {period:.1%} of a period of "
-            f"{1e3 * dt:g} ms at {assumed['operation_rate']:.0e} operations a second."
-        ),
+        caption=caption("claim_vs_pinv", tasks=len(counted), dt=dt, rate=assumed["operation_rate"]),
     )
 
 

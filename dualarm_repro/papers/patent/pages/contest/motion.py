@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from scipy.stats import t as student
 
-from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
 from .....control.neural.continuous import INTEGRATORS, integrate_network
 from .....control.neural.fixed_step import simulate_network
@@ -18,12 +17,14 @@ from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.primal_dual import simulate_primal_dual
 from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result
+from .....ledger.captions import captions
 from .....ledger.witnesses import one_for_each_side
 from .....tracking import memo
 from ...document import CONTROL_STEP, SEED, frozen, run
 from ...reading import network_settings
 
 checks = partial(REGISTRY.checks, page="patent/contest")
+caption = captions(__file__)
 #: Independent disturbances of each kind.
 REPEATS = 4
 _RANDOM = 0.1  # [rad/s] size of a random state
@@ -52,7 +53,7 @@ MEASURES: dict[str, Callable[[Motion], float]] = {
             "advantage",
             "what the disturbance adds with the primal-dual network less that with the "
             "network, by their sum",
-        ),
+        )
     ],
 )
 def more_robust(assumed: Assumed) -> Result:
@@ -62,9 +63,9 @@ def more_robust(assumed: Assumed) -> Result:
     count = round(assumed["primal_dual_network"])
     sizes = {"state": assumed["noise_amplitude"], "readings": assumed["reading_noise"]}
     runs = {
-        (name, number): _motions(network, count, kind, sizes[kind], number)[name]
+        (name, number): motion
         for number in range(REPEATS)
-        for name in ("network", "primal-dual", "exact QP")
+        for name, motion in _motions(network, count, kind, sizes[kind], number).items()
     }
     calm = _motions(network, count, "none", 0.0, 0)
     added = {
@@ -75,30 +76,19 @@ def more_robust(assumed: Assumed) -> Result:
     advantage = _interval(shares)
     own, other = (float(np.median(added[name])) for name in ("network", "primal-dual"))
     rows = [("none", name, 0, *_row(motion)) for name, motion in calm.items()]
-    rows += [(kind, name, k, *_row(m)) for (name, k), m in runs.items() if m is not None]
-    outcome = (
-        "less"
-        if advantage["low"] > 0
-        else "more"
-        if advantage["high"] < 0
-        else "neither more nor less"
-    )
-    what = {"state": "a constant push on the state equation", "readings": "noisy distances"}[kind]
+    rows += [(kind, name, k, *_row(motion)) for (name, k), motion in runs.items()]
     return Result(
         obtained={
             "advantage": advantage,
             "added_network": own if np.isfinite(own) else None,
             "added_primal_dual": other if np.isfinite(other) else None,
         },
-        witnesses=_witnesses(shares),
+        witnesses=one_for_each_side(
+            (f"repeat {k}", share > 0.0, {"advantage": share}) for k, share in enumerate(shares)
+        ),
         table=pd.DataFrame(rows, columns=["disturbance", "solver", "repeat", *_COLUMNS]),
-        caption=(
-            f"With {what}, judged by {measure.replace('_', ' ')}, the disturbance adds {own:.2g} "
-            f"to the network and {other:.2g} to the primal-dual network (SI units, medians of "
-            f"{REPEATS}): {outcome} than to the other, relative difference "
-            f"{advantage['value']:+.2f} in [{advantage['low']:+.2f}, {advantage['high']:+.2f}]. "
-            "Against what the network is robust, and by which measure, is not printed; other "
-            "declared choices are among the draws. The table holds the exact QP as a yardstick."
+        caption=caption(
+            "claim_robust", kind=kind, measure=measure, repeats=REPEATS, own=own, other=other
         ),
     )
 
@@ -119,16 +109,15 @@ def _row(motion: Motion) -> tuple[bool, float, float, float, float]:
     )
 
 
-@memo(64)
 def _motions(
     network: NetworkSettings, count: int, kind: str, size: float, number: int
-) -> dict[str, Motion | None]:
+) -> dict[str, Motion]:
     """Motions of both networks, and of the exact QP where the readings are disturbed."""
-    return {
+    found = {
         "network": _network(network, kind, size, number),
         "primal-dual": _primal_dual(count, kind, size, number),
-        "exact QP": None if kind == "state" else _exact(kind, size, number),
     }
+    return found if kind == "state" else {**found, "exact QP": _exact(kind, size, number)}
 
 
 @memo(64)
@@ -148,7 +137,7 @@ def _exact(kind: str, size: float, number: int) -> Motion:
     return run(frozen("crossing"), ControllerSettings(), **_disturbed(kind, size, number))
 
 
-def _disturbed(kind: str, size: float, number: int) -> dict[str, np.ndarray]:
+def _disturbed(kind: str, size: float, number: int) -> dict[str, Any]:
     """Arguments of a run: a constant push of random signs, or white noise on the distances."""
     scenario = frozen("crossing")
     steps, system = round(scenario.period / CONTROL_STEP), scenario.system
@@ -177,13 +166,6 @@ def _share(own: float, other: float) -> float:
     return (other - own) / (other + own)
 
 
-def _witnesses(shares: list[float]) -> list[dict[str, Any]]:
-    """A repeat in which the network is the more robust one, and one in which it is not."""
-    return one_for_each_side(
-        (f"repeat {k}", share > 0.0, {"advantage": share}) for k, share in enumerate(shares)
-    )
-
-
 def _interval(values: list[float]) -> dict[str, float]:
     """Mean with its 95 % interval by Student's t."""
     mean, spread = float(np.mean(values)), float(np.std(values, ddof=1))
@@ -205,9 +187,9 @@ def accurate(assumed: Assumed) -> Result:
     settings = ControllerSettings(feedback=assumed["feedback_gain"])
     network = NetworkSettings(gamma=assumed["gain"])
     size = scenario.system.nq + 3 * len(scenario.system.arms)
-    y0 = _initial_state(assumed["initial_state"], size)
-    motion = _network_motion(scenario, settings, network, assumed["integrator"], y0)
-    started = _network_motion(scenario, settings, network, "bdf", _initial_state("random", size))
+    arguments, y0 = (*scenario.parts, settings, network), assumed["initial_state"]
+    motion = _network_motion(arguments, assumed["integrator"], _initial_state(y0, size))
+    started = _network_motion(arguments, "bdf", _initial_state("random", size))
     bound = assumed["accuracy_bound"]
     # Below a micrometre the error is that of the integrator's step control.
     error, random_error = round(motion.largest_error, 6), round(started.largest_error, 6)
@@ -219,13 +201,7 @@ def accurate(assumed: Assumed) -> Result:
             "tip_error_random_start": random_error,
         },
         measured={"tip_error": motion.largest_error},
-        caption=(
-            f"Largest tip error over the whole path, to the micrometre: {1e6 * error:.0f} um by "
-            f"{assumed['integrator']} from a state that is {assumed['initial_state']}, against "
-            f"{1e6 * bound:.0f} um taken for accurate. From a random state of size {_RANDOM:g} "
-            f"rad/s the tips are off by up to {1e3 * random_error:.1f} mm before the error has "
-            "died out. How accurate is meant is not printed."
-        ),
+        caption=caption("claim_accuracy", error=error, assumed=assumed, size=_RANDOM),
     )
 
 
@@ -236,14 +212,7 @@ def _initial_state(name: str, size: int) -> np.ndarray:
     return np.zeros(size)
 
 
-def _network_motion(
-    scenario: FrozenScenario,
-    settings: ControllerSettings,
-    network: NetworkSettings,
-    integrator: str,
-    y0: np.ndarray,
-) -> Motion:
-    arguments = (*scenario.parts, settings, network)
+def _network_motion(arguments: tuple[Any, ...], integrator: str, y0: np.ndarray) -> Motion:
     if integrator in INTEGRATORS:
         return integrate_network(*arguments, integrator=integrator, y0=y0)[0]
     return simulate_network(*arguments, dt=CONTROL_STEP, y0=y0)

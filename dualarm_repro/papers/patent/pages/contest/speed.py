@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -33,6 +32,8 @@ ITERATIONS = (1, 3, 10, 30, 100, 300)
 #: Problems in a row on which the network starts from its state before.
 IN_A_ROW = 60
 _MOST_STEPS, _MOST_ITERATIONS = 60, 30_000
+_NAMES = {"active_set": "exact active set", "network": "network",
+          "primal_dual": "primal-dual network"}  # fmt: skip
 
 
 @checks(
@@ -44,7 +45,7 @@ _MOST_STEPS, _MOST_ITERATIONS = 60, 30_000
             "problems on which the network is near the minimiser with fewer operations",
             at_least="nearly_all",
             margin="margin",
-        ),
+        )
     ],
 )
 def faster_than_primal_dual(assumed: Assumed) -> Result:
@@ -63,14 +64,15 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
         None if count is None else count * _primal_dual_costs()[k]
         for count, k in zip(others, busy, strict=True)
     ]
-    sooner = sum(_sooner(a, b) for a, b in zip(own, rival, strict=True))
+    pairs = list(zip(own, rival, strict=True))
+    sooner = [_sooner(*pair) for pair in pairs]
     arrived = [s for s in steps if s is not None]
     reached = [k for k in others if k is not None]
     hardest = busy[max(range(len(busy)), key=lambda k: others[k] or _MOST_ITERATIONS)]
-    ratios = [b / a for a, b in zip(own, rival, strict=True) if a and b]
+    ratios = [b / a for a, b in pairs if a and b]
     return Result(
         obtained={
-            "sooner": {"count": sooner, "of": len(problems)},
+            "sooner": {"count": sum(sooner), "of": len(problems)},
             "arrived": len(arrived),
             "network_steps": float(np.median(arrived)) if arrived else None,
             "primal_dual_arrived": len(reached),
@@ -85,21 +87,15 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
                 "primal-dual operations": rival,
             }
         ),
-        caption=(
-            f"From a zero state both networks run on the {len(problems)} of {len(every)} recorded "
-            "problems of the frozen task that are not solved by standing still, "
-            f"until they are within {threshold:g} rad/s of the exact minimiser, the same measure "
-            f"for both. The network ({network.penalty}, p = {network.factor:g}), discretised with "
-            f"unit gain, gets there on {len(arrived)} of them"
-            + (f", in {np.median(arrived):.0f} steps in the median" if arrived else "")
-            + "; what stops it on the others is the bias of its penalty. The primal-dual network "
-            f"gets there on {len(reached)}"
-            + (f", in {np.median(reached):.0f} iterations" if reached else "")
-            + f". Counted in operations, the network is sooner on {sooner} of {len(problems)}"
-            + (f"; where both arrive, by a factor of {np.median(ratios):.1f}" if ratios else "")
-            + ". Its step is one of Newton's method, the other's of first order."
+        caption=caption("claim_faster", every=len(every), threshold=threshold, network=network),
+        witnesses=one_for_each_side(
+            (
+                f"problem {k} of the task",
+                sooner[k],
+                {"network_operations": a, "primal_dual_operations": b},
+            )
+            for k, (a, b) in enumerate(pairs)
         ),
-        witnesses=_witnesses(own, rival),
         alt="Distance from the minimiser over the number of steps: the network falls within a "
         "few steps to the bias of its penalty, the other in hundreds without an end.",
         figure=lambda: convergence_figure(_curves(hardest, network), threshold),
@@ -117,46 +113,28 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
 def faster_than_numerical(assumed: Assumed) -> Result:
     """Operations on recorded problems in a row: exact active-set method against the network."""
     network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
-    problems = busiest(IN_A_ROW)
+    problems, cost = busiest(IN_A_ROW), assumed["function_cost"]
     steps, error = steps_in_a_row(problems, network, threshold, NEWTON_STEPS[-1])
-    cost = assumed["function_cost"]
     each = [one.total(cost) for one in _network_costs(network.penalty, in_a_row=True)]
     exact = [one.total(cost) for one in _exact_costs()]
-    arrives = error <= threshold
-    saved = 1.0 - steps * sum(each) / sum(exact)
     return Result(
         obtained={
-            "arrives": arrives,
-            "saved": saved,
+            "arrives": error <= threshold,
+            "saved": 1.0 - steps * sum(each) / sum(exact),
             "network_steps": steps,
             "network_operations": float(np.mean(each)),
             "exact_operations": float(np.mean(exact)),
         },
-        measured=_measured(network),
+        measured={
+            f"{e.solver}_{e.effort}_us": [e.microseconds, e.low, e.high] for e in _entries(network)
+        },
         table=pd.DataFrame(_entries(network)),
         caption=caption(
-            "claim_efficient",
-            problems=len(problems),
-            cost=cost,
-            network=network,
-            error=error,
-            threshold=threshold,
+            "claim_efficient", problems=IN_A_ROW, assumed=assumed, network=network, error=error
         ),
         alt="Largest error against time a problem: the exact method at the bottom left, both "
         "networks above and to the right.",
         figure=lambda: contest_figure(_series(_entries(network)), 1e-12),
-    )
-
-
-def _witnesses(own: list[float | None], rival: list[float | None]) -> list[dict[str, Any]]:
-    """A problem on which the network is sooner and one on which it is not, where there are such."""
-    return one_for_each_side(
-        (
-            f"problem {k} of the task",
-            _sooner(a, b),
-            {"network_operations": a, "primal_dual_operations": b},
-        )
-        for k, (a, b) in enumerate(zip(own, rival, strict=True))
     )
 
 
@@ -200,32 +178,20 @@ def _entries(network: NetworkSettings) -> list[Entry]:
     return contest(busiest(IN_A_ROW), network, NEWTON_STEPS, ITERATIONS)
 
 
-def _measured(network: NetworkSettings) -> dict[str, list[float]]:
-    """Median and quartiles of the time a problem, by solver and effort [us]."""
-    return {f"{e.solver}_{e.effort}_us": [e.microseconds, e.low, e.high] for e in _entries(network)}
-
-
 def _curves(index: int, network: NetworkSettings) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     own = network_errors(recorded(100)[index], network, _MOST_STEPS)
+    other = _primal_dual_errors()[index]
     return {
         "network": (np.arange(1, len(own)), own[1:]),
-        "primal-dual network": (_counts()[1:], _primal_dual_errors()[index][1:]),
+        "primal-dual network": (_counts()[1:], other[1:]),
     }
 
 
 def _series(entries: list[Entry]) -> dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    names = {
-        "active_set": "exact active set",
-        "network": "network",
-        "primal_dual": "primal-dual network",
-    }
+    """Times a problem, their quartiles and the errors, by the names of the figure."""
     series = {}
-    for key, name in names.items():
-        rows = [e for e in entries if e.solver == key]
-        quartiles = np.array([[e.low for e in rows], [e.high for e in rows]])
-        series[name] = (
-            np.array([e.microseconds for e in rows]),
-            quartiles,
-            np.array([e.error for e in rows]),
-        )
+    for key, name in _NAMES.items():
+        rows = [(e.microseconds, e.low, e.high, e.error) for e in entries if e.solver == key]
+        times, low, high, errors = np.array(rows).T
+        series[name] = times, np.array([low, high]), errors
     return series

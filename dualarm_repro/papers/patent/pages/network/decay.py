@@ -9,7 +9,7 @@ import pandas as pd
 from scipy.integrate import solve_ivp
 
 from .....control.assembly import make_buffers, sense, state
-from .....control.neural.activation import SLOPE_AT_ZERO, activation
+from .....control.neural.activation import SLOPE_AT_ZERO, Activation, activation
 from .....control.neural.continuous import INTEGRATORS, integrate_network
 from .....control.neural.fixed_step import divergence_time, simulate_network
 from .....control.neural.network import network_rate, state_rate
@@ -18,6 +18,8 @@ from .....control.neural.optimality import optimality
 from .....control.neural.penalised import code_error, state_with_error
 from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....ledger.assumptions import alternatives
+from .....ledger.captions import captions
 from .....settings import code
 from .....view.control_figures import decay_figure
 from ...document import CONTROL_STEP, SEED, frozen
@@ -25,6 +27,7 @@ from ...problems import sample_problem
 from ...reading import network_settings
 
 checks = partial(REGISTRY.checks, page="patent/network")
+caption = captions(__file__)
 START = 0.1  # size of the error at the start of a decay
 GAINS = (1.0, 10.0, 80.0)
 HORIZON = 6.0  # [s] after which gamma = 1 has reached most of its ceiling
@@ -41,10 +44,9 @@ _DONE = 1e-9  # error below every declared threshold, after which nothing is lef
 )
 def error_decay(assumed: Assumed) -> Result:
     """Error of the network on a problem that stands still, against d xi/dt = -gamma e^t Psi(xi)."""
-    gain = REGISTRY.declared("patent.gain", "value", "range")
-    names = REGISTRY.declared("patent.activation", "choices").choices
-    tried = [(name, gain.value) for name in names]
-    tried += [(names[0], gamma) for gamma in gain.range]
+    names, ends = alternatives("patent.activation", 0), alternatives("patent.gain", 2)
+    tried = [(name, REGISTRY.assumption("patent.gain")) for name in names]
+    tried += [(names[0], gamma) for gamma in ends]
     defects = [
         _decay_defect(NetworkSettings(activation=name, gamma=gamma)) for name, gamma in tried
     ]
@@ -54,12 +56,7 @@ def error_decay(assumed: Assumed) -> Result:
             [(*pair, defect) for pair, defect in zip(tried, defects, strict=True)],
             columns=["activation", "gamma [1/s]", "defect"],
         ),
-        caption=(
-            "On a problem that stands still every entry of the error follows d xi/dt = -gamma e^t "
-            f"Psi(xi) to {max(defects):.1e} of its start, for {len(names)} activations and "
-            f"gamma = {gain.range[0]:g} to {gain.range[1]:g}: the state equation does what the "
-            "design asks for. For the linear activation the decay is exp(-gamma (e^t - 1))."
-        ),
+        caption=caption("eq_design", worst=max(defects), activations=len(names), gamma=ends),
     )
 
 
@@ -98,32 +95,28 @@ def _decay_defect(network: NetworkSettings) -> float:
             "sooner",
             "the growing gain is below the threshold earlier by [s], at least one step",
             low="one_step",
-        ),
+        )
     ],
 )
 def growing_gain(assumed: Assumed) -> Result:
     """Time until the error stays below the threshold, with growing and with constant gain."""
     threshold, own = assumed["convergence_threshold"], assumed["gain"]
-    activation, rival = assumed["activation"], assumed["compared_gain"]
+    activation = assumed["activation"]
     curves = {
         (g, kind): _decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
     }
     found = {key: _settled(errors, threshold) for key, errors in curves.items()}
     ceiling = gain_ceiling(activation)
-    words = {"start": f"gamma = {own:g} 1/s throughout", "ceiling": f"{ceiling:g} 1/s throughout"}
-    sooner = found[own, rival] - found[own, "growing"]
+    unstable = {g: divergence_time(g, CONTROL_STEP) for g in GAINS}
     drawn = {
-        f"{label}, gamma = {g:g}": (CONTROL_STEP * np.arange(len(curves[g, kind])), curves[g, kind])
+        f"{label}, gamma = {g:g}": curves[g, kind]
         for g in GAINS
         for label, kind in (("growing gain", "growing"), ("constant gain", "start"))
     }
-    drawn["constant gain of the same ceiling"] = (
-        CONTROL_STEP * np.arange(len(curves[own, "ceiling"])),
-        curves[own, "ceiling"],
-    )
+    drawn["constant gain of the same ceiling"] = curves[own, "ceiling"]
     return Result(
         obtained={
-            "sooner": sooner,
+            "sooner": found[own, assumed["compared_gain"]] - found[own, "growing"],
             "growing_s": found[own, "growing"],
             "constant_s": found[own, "start"],
             "ceiling_s": found[own, "ceiling"],
@@ -133,27 +126,23 @@ def growing_gain(assumed: Assumed) -> Result:
             [(g, *(found[g, kind] for kind in _KINDS)) for g in sorted({*GAINS, own})],
             columns=["gamma [1/s]", "growing [s]", "constant gamma [s]", "constant ceiling [s]"],
         ),
-        caption=(
-            f"From an error of {START:g} the network of fixed step is below {threshold:g} for good "
-            f"after {_text(found[own, 'growing'])} with the growing gain (gamma = {own:g}, "
-            f"{activation}), after {_text(found[own, 'start'])} with gamma constant, and after "
-            f"{_text(found[own, 'ceiling'])} with the constant gain of the same ceiling, "
-            f"{ceiling:g} 1/s, beyond which the step allows no growth. Compared with "
-            f"{words[rival]}, the growing gain is "
-            f"{'sooner' if sooner >= CONTROL_STEP else 'not sooner'}. Which constant gain is meant "
-            "is not printed. Without that ceiling explicit steps become unstable after "
-            f"{', '.join(f'{divergence_time(g, CONTROL_STEP):.1f}' for g in GAINS)} s for gamma = "
-            f"{', '.join(f'{g:g}' for g in GAINS)}."
+        caption=caption(
+            "claim_gain_time_varying",
+            **{"start": START, "horizon": HORIZON, "step": CONTROL_STEP},
+            assumed=assumed,
+            unstable=unstable,
         ),
         alt="Decay of the error over time for three gains, growing and constant, and for the "
         "constant gain of the same ceiling, which falls first.",
-        figure=lambda: decay_figure(drawn, threshold),
+        figure=lambda: decay_figure(
+            {name: (CONTROL_STEP * np.arange(len(c)), c) for name, c in drawn.items()}, threshold
+        ),
     )
 
 
 def gain_ceiling(activation: str) -> float:
     """Largest gain that the fixed step allows, 1 / (step Psi'(0)) [1/s]."""
-    slope = SLOPE_AT_ZERO[activation]
+    slope = SLOPE_AT_ZERO[Activation(activation)]
     return 1.0 / (CONTROL_STEP * (slope if 0.0 < slope < np.inf else 1.0))
 
 
@@ -181,10 +170,6 @@ def _settled(errors: np.ndarray, threshold: float) -> float:
     above = np.flatnonzero(~(errors <= threshold))
     steps = int(above[-1]) + 1 if len(above) else 0
     return HORIZON if steps >= len(errors) else CONTROL_STEP * steps
-
-
-def _text(seconds: float) -> str:
-    return f"{seconds:.3f} s" if seconds < HORIZON else f"more than {HORIZON:g} s"
 
 
 @checks(
@@ -236,13 +221,7 @@ def state_equation(assumed: Assumed) -> Result:
         found = (ends[0] - ends[1]) / (2 * step)
         worst = max(worst, float(np.abs(found - asked).max() / np.abs(asked).max()))
     return Result(
-        obtained={"defect": round(worst, 6)},
-        caption=(
-            f"Moved along the arms' motion at t = {t:.2f} s, the error changes as -gamma e^t "
-            f"Psi(xi) to {worst:.1e} of the largest entry at ten random states: M dy/dt = -dF/dt "
-            "- gamma e^t Psi(F) with the Hessian of the penalty in M and every rate of the "
-            "problem in dF/dt. Leaving out either changes the decay."
-        ),
+        obtained={"defect": round(worst, 6)}, caption=caption("eq_solver", t=t, worst=worst)
     )
 
 
@@ -283,12 +262,12 @@ def integration(assumed: Assumed) -> Result:
             "distance": motion.smallest_distance,
         },
         measured={"evaluations": evaluations, "tip_error": motion.largest_error},
-        caption=(
-            "Robot and network as one differential equation, integrated by "
-            f"{assumed['integrator']} with {evaluations} evaluations for {scenario.period:g} s of "
-            f"motion: the first n entries of y, summed up, are the joint angles to {defect:.1e} "
-            f"rad, where such a sum errs by up to {expected:.1e}. To the micrometre the tips are "
-            f"within {1e6 * tips:.0f} um of their circles, and the arms "
-            f"{1e3 * motion.smallest_distance:.1f} mm apart."
+        caption=caption(
+            "eq_integration",
+            integrator=assumed["integrator"],
+            period=scenario.period,
+            defect=defect,
+            expected=expected,
+            tips=tips,
         ),
     )

@@ -19,12 +19,16 @@ from .....control.neural.penalty import Penalty
 from .....control.problem import QuadraticProgram
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, NoOriginal, Residual, Result
+from .....ledger.captions import captions
 from .....ledger.formula import Formula, parse
 from ...document import SEED
 from ...problems import sample_problem
 from ...reading import network_settings
 
 checks = partial(REGISTRY.checks, page="patent/network")
+caption = captions(__file__)
+#: A problem, a network and its state.
+State = tuple[QuadraticProgram, NetworkSettings, np.ndarray]
 _STATES = 5  # random states about the rest point, for each form of the penalty
 
 
@@ -41,18 +45,10 @@ _STATES = 5  # random states about the rest point, for each form of the penalty
 )
 def lagrange_function(assumed: Assumed) -> Result:
     """Differences of the Lagrangian, from values alone, against the error that the code drives."""
-    worst = max(
-        _apart(code_error(p, network, y), lagrangian_gradient(p, network, y))
-        for p, network, y in _states()
-    )
+    worst = max(_apart(code_error(*at), lagrangian_gradient(*at)) for at in _states())
     return Result(
         obtained={"gradient": worst},
-        caption=(
-            "Objective with penalty, plus lambda times the equality: the words around the lost "
-            f"formula leave no other. Its differences at {_STATES} states for each of "
-            f"{len(Penalty)} penalties agree with the error that the compiled network drives to "
-            f"zero to {worst:.1e} of the largest entry."
-        ),
+        caption=caption("eq_lagrangian", states=_STATES, penalties=len(Penalty)),
     )
 
 
@@ -69,20 +65,8 @@ def lagrange_function(assumed: Assumed) -> Result:
 )
 def optimality_conditions(assumed: Assumed) -> Result:
     """The zero of both derivatives against a minimiser of the objective along the equality."""
-    p = sample_problem()
-    apart = {
-        name: float(np.abs(rest_point(p, n)[: p.size] - minimiser(p, n)).max())
-        for name, n in _networks().items()
-    }
-    worst = max(apart.values())
-    return Result(
-        obtained={"apart": worst},
-        caption=(
-            "Where both derivatives vanish lies the minimiser: a descent of the penalised "
-            "objective along the joint velocities that keep the tip velocity, which knows no "
-            f"multiplier, ends within {worst:.1e} rad/s of it for each of {len(apart)} penalties."
-        ),
-    )
+    apart = [float(np.abs(y[: p.size] - minimiser(p, n)).max()) for p, n, y in _rests()]
+    return Result(obtained={"apart": max(apart)}, caption=caption("eq_kkt", penalties=len(apart)))
 
 
 @checks(
@@ -99,24 +83,11 @@ def optimality_conditions(assumed: Assumed) -> Result:
 def matrix_form(assumed: Assumed) -> Result:
     """Both printed sides, with the blocks built anew, at random states and at rest."""
     printed = parse(REGISTRY.printed("patent.eq_matrix")["formula"])
-    away = max(
-        _apart(_sides(printed, p, network, y), lagrangian_gradient(p, network, y))
-        for p, network, y in _states()
-    )
-    p = sample_problem()
-    rest = max(
-        float(np.abs(_sides(printed, p, network, rest_point(p, network))).max())
-        for network in _networks().values()
-    )
+    away = max(_apart(_sides(printed, at), lagrangian_gradient(*at)) for at in _states())
+    rest = max(float(np.abs(_sides(printed, at)).max()) for at in _rests())
     return Result(
         obtained={"derivatives": away, "at_rest": rest},
-        caption=(
-            f"The printed {printed.text}, with E = [I, J^T; J, 0], y = [phi; lambda] and e = "
-            "[-grad P; dr/dt] as blocks: at random states left less right differs from the "
-            f"derivatives of the Lagrangian by {away:.1e} of the largest, and where the network "
-            f"rests both sides agree to {rest:.1e}. Since P depends on phi, e depends on the "
-            "unknown y: the equation is not linear."
-        ),
+        caption=caption("eq_matrix", printed=printed.text),
     )
 
 
@@ -131,24 +102,13 @@ def error_function(assumed: Assumed) -> Result:
     """xi of the code against the printed right side, with the blocks built anew."""
     printed = parse(REGISTRY.printed("patent.eq_error")["formula"])
     worst = max(
-        _apart(
-            printed.value(0, {"xi": code_error(p, network, y)}),
-            printed.value(1, _named(p, network, y)),
-        )
-        for p, network, y in _states()
+        _apart(printed.value(0, {"xi": code_error(*at)}), printed.value(1, _named(at)))
+        for at in _states()
     )
-    p = sample_problem()
-    rest = max(
-        float(np.abs(printed.value(1, _named(p, network, rest_point(p, network)))).max())
-        for network in _networks().values()
-    )
+    rest = max(float(np.abs(printed.value(1, _named(at))).max()) for at in _rests())
     return Result(
         obtained={"compiled": worst, "at_minimiser": rest},
-        caption=(
-            f"The error that the code drives to zero is the printed {printed.text}, to "
-            f"{worst:.1e} of its size with the blocks built anew for {len(Penalty)} forms of "
-            f"the penalty. At the minimiser the printed right side is {rest:.1e}."
-        ),
+        caption=caption("eq_error", printed=printed.text, penalties=len(Penalty)),
     )
 
 
@@ -168,32 +128,23 @@ def matrix_blocks(assumed: Assumed) -> Result:
     M = state_matrix(p, network, y)
     differences = central_differences(lambda at: code_error(p, network, at), y, 1e-7).T
     worst = _apart(M, differences)
-    return Result(
-        obtained={"derivative": worst},
-        caption=(
-            "Differentiating the error by the state gives E with the Hessian of the penalty added "
-            "to its identity block. The matrix used here differs from differences of the error by "
-            f"{worst:.1e} of the largest entry; without the Hessian it would be E itself."
-        ),
-    )
+    return Result(obtained={"derivative": worst}, caption=caption("eq_matrix_defs"))
 
 
-def _networks() -> dict[str, NetworkSettings]:
-    """Each form of the penalty; the exponential with p s = 1, so that its rest lies near g = 0."""
+def _rests() -> list[State]:
+    """Each form of the penalty at rest; the exponential with p s = 1, so that it is near g = 0."""
+    p, usual = sample_problem(), NetworkSettings().factor
     factors = {"exponential": 1e-3, "softplus": 1e2}
-    return {
-        name: NetworkSettings(penalty=name, factor=factors.get(name, NetworkSettings().factor))
-        for name in Penalty
-    }
+    networks = [NetworkSettings(penalty=name, factor=factors.get(name, usual)) for name in Penalty]
+    return [(p, network, rest_point(p, network)) for network in networks]
 
 
-def _states() -> list[tuple[QuadraticProgram, NetworkSettings, np.ndarray]]:
+def _states() -> list[State]:
     """Random states about the rest point of each form."""
-    p, rng = sample_problem(), np.random.default_rng(SEED)
-    size = p.size + len(p.b)
+    rng = np.random.default_rng(SEED)
     return [
-        (p, network, rest_point(p, network) + 1e-3 * rng.normal(size=size))
-        for network in _networks().values()
+        (p, network, y + 1e-3 * rng.normal(size=len(y)))
+        for p, network, y in _rests()
         for _ in range(_STATES)
     ]
 
@@ -202,14 +153,12 @@ def _apart(found: np.ndarray, expected: np.ndarray) -> float:
     return float(np.abs(found - expected).max() / max(np.abs(expected).max(), 1e-12))
 
 
-def _named(p: QuadraticProgram, network: NetworkSettings, y: np.ndarray) -> dict[str, np.ndarray]:
+def _named(at: State) -> dict[str, np.ndarray]:
     """The names of the printed equations."""
-    return dict(zip(("E", "y", "e"), blocks(p, network, y), strict=True))
+    return dict(zip(("E", "y", "e"), blocks(*at), strict=True))
 
 
-def _sides(
-    printed: Formula, p: QuadraticProgram, network: NetworkSettings, y: np.ndarray
-) -> np.ndarray:
+def _sides(printed: Formula, at: State) -> np.ndarray:
     """Left side less right side."""
-    given = _named(p, network, y)
+    given = _named(at)
     return np.asarray(printed.value(0, given) - printed.value(1, given))

@@ -15,12 +15,15 @@ from .....control.neural.penalty import Penalty, penalty
 from .....control.problem import QuadraticProgram
 from .....control.solvers import solve
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from .....ledger.assumptions import alternatives
+from .....ledger.captions import captions
 from .....settings import code
 from .....view.control_figures import penalty_figure
 from ...problems import sample_problem
 from ...reading import PENALTY, network_settings
 
 checks = partial(REGISTRY.checks, page="patent/network")
+caption = captions(__file__)
 #: Factors by which the penalty is stiffened.
 STIFFER = (1.0, 10.0, 100.0)
 
@@ -43,28 +46,19 @@ STIFFER = (1.0, 10.0, 100.0)
 def penalty_function(assumed: Assumed) -> Result:
     """Every declared form at the ends of the declared parameters, against central differences."""
     found = [_properties(*choice) for choice in _declared()]
-    forms = {
-        name: np.array([penalty(code(Penalty(name)), _drawn(name), 10.0, v)[0] for v in _GRID])
-        for name in Penalty
+    factors = {name: 0.01 if name == "exponential" else 1.0 for name in Penalty}
+    forms: dict[str, np.ndarray] = {
+        name: np.array([penalty(code(name), factor, 10.0, v)[0] for v in _GRID])
+        for name, factor in factors.items()
     }
-    worst = {key: max(row[key] for row in found) for key in ("first", "second", "inside")}
+    worst = {
+        key: (min if key in ("slope", "bend") else max)(row[key] for row in found)
+        for key in found[0]
+    }
     return Result(
-        obtained={
-            "first_derivative": worst["first"],
-            "second_derivative": worst["second"],
-            "slope": min(row["slope"] for row in found),
-            "bend": min(row["bend"] for row in found),
-            "inside": worst["inside"],
-            "tried": len(found),
-        },
+        obtained={**worst, "tried": len(found)},
         table=pd.DataFrame({"g": _GRID, **forms}),
-        caption=(
-            f"{len(forms)} penalties that fit the words, drawn for p = 1 (exponential 0.01) and "
-            f"sigma = 10. All of them, at {len(found)} choices of p and sigma, have the "
-            f"derivatives that differences give, to {max(worst['first'], worst['second']):.1e}, "
-            "grow, are convex and act on violations: which one the document means the words do not "
-            "say, since p, h and sigma are named and the formula is lost."
-        ),
+        caption=caption("eq_penalty", forms=len(forms)),
         alt="Penalty curves over the violation g, all flat for negative g and rising for positive "
         "g.",
         figure=lambda: penalty_figure(_GRID, forms),
@@ -85,9 +79,7 @@ def penalty_function(assumed: Assumed) -> Result:
 )
 def stacked_inequalities(assumed: Assumed) -> Result:
     """C x <= d with C = [G; I; -I], and the multipliers that the penalty stands for."""
-    network = network_settings(assumed, *PENALTY)
-    p = sample_problem()
-    silent = _without_effect(p, network)
+    network, p = network_settings(assumed, *PENALTY), sample_problem()
     exact = solve(p)
     multipliers = np.concatenate([exact.z, np.maximum(exact.w, 0.0), np.maximum(-exact.w, 0.0)])
     miss = []
@@ -95,22 +87,15 @@ def stacked_inequalities(assumed: Assumed) -> Result:
         stiffer = stiffened(network, factor)
         push = penalties(p, stiffer, rest_point(p, stiffer)[: p.size])[:, 1]
         miss.append(float(np.abs(push - multipliers).max() / multipliers.max()))
-    count = len(inequalities(p)[1])
     return Result(
         obtained={
-            "without_effect": silent,
-            "inequalities": count,
+            "without_effect": _without_effect(p, network),
+            "inequalities": len(inequalities(p)[1]),
             "miss": miss[0],
             "nearer": miss[1] / miss[0],
             "largest_multiplier": float(multipliers.max()),
         },
-        caption=(
-            f"Both bounds of {p.size} joints and {len(p.h)} avoidance rows make h = {count} "
-            f"one-sided inequalities; moving them one by one, {silent} leave the error of the code "
-            f"as it is. Their largest multiplier is {multipliers.max():.3f}; the slope of the "
-            f"penalty at its minimiser misses it by {miss[0]:.1%}, and by {miss[1]:.2%} when "
-            "stiffer by 100. That is what p and sigma have to be chosen for."
-        ),
+        caption=caption("eq_penalty_defs", joints=p.size, rows=len(p.h), stiff=miss[1]),
     )
 
 
@@ -145,12 +130,7 @@ def penalised_problem(assumed: Assumed) -> Result:
             "equality": equality,
         },
         table=pd.DataFrame(rows, columns=["stiffer by", "bias [rad/s]", "violation [m/s]"]),
-        caption=(
-            f"The penalised minimiser is {bias[0]:.1e} rad/s from the exact one where avoidance "
-            f"presses most, and violates a row by {rows[0][2]:.1e} m/s; the equality is kept to "
-            f"{equality:.1e} m/s. Stiffer by 10 and by 100 the distance is {bias[1]:.1e} and "
-            f"{bias[2]:.1e} rad/s."
-        ),
+        caption=caption("eq_qp_penalized"),
     )
 
 
@@ -167,11 +147,12 @@ def stiffened(network: NetworkSettings, factor: float) -> NetworkSettings:
 
 def _declared() -> list[tuple[str, float, float]]:
     """Declared forms with the ends and the nominal values of p and sigma."""
-    ends = []
-    for name in ("patent.penalty_factor", "patent.penalty_sharpness"):
-        entry = REGISTRY.declared(name, "value", "range")
-        ends.append((entry.range[0], entry.value, entry.range[1]))
-    forms = REGISTRY.declared("patent.penalty_form", "choices").choices
+    forms = alternatives("patent.penalty_form", 0)
+    ends = [
+        (low, REGISTRY.assumption(name), high)
+        for name in ("patent.penalty_factor", "patent.penalty_sharpness")
+        for low, high in [alternatives(name, 2)]
+    ]
     return list(product(forms, *ends))
 
 
@@ -182,16 +163,13 @@ def _properties(form: str, p: float, s: float) -> dict[str, float]:
     step = 1e-5 / s
     at, up, down = (np.array([penalty(kind, p, s, v + d) for v in g]) for d in (0.0, step, -step))
     first, second = (
-        float(
-            np.abs((up[:, k] - down[:, k]) / (2 * step) - at[:, k + 1]).max()
-            / np.abs(at[:, k + 1]).max()
-        )
-        for k in (0, 1)
+        float(np.abs((up[:, k] - down[:, k]) / (2 * step) - exact).max() / np.abs(exact).max())
+        for k, exact in enumerate(at.T[1:])
     )
     slope = at[:, 1]
     return {
-        "first": first,
-        "second": second,
+        "first_derivative": first,
+        "second_derivative": second,
         "slope": float(slope.min()),
         "bend": float(at[:, 2].min()),
         "inside": float(slope[0] / slope[-1]),
@@ -212,11 +190,6 @@ def _without_effect(p: QuadraticProgram, network: NetworkSettings) -> int:
         optimality(network.numbers(), p.parts._replace(h=h, lower=-lower, upper=upper), y, after)
         silent += bool(np.abs(after - before).max() < 1e-9 * network.factor)
     return silent
-
-
-def _drawn(name: str) -> float:
-    """Factor that brings the form into one picture."""
-    return 0.01 if name == "exponential" else 1.0
 
 
 _GRID = np.linspace(-0.4, 0.4, 161)

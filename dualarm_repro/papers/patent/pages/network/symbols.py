@@ -1,4 +1,4 @@
-"""The chain from the Lagrangian to E y = e in symbols, for a reader."""
+"""E y = e in symbols, for a reader."""
 
 from __future__ import annotations
 
@@ -20,24 +20,6 @@ def symbols() -> dict[str, sp.Matrix]:
         "C": sp.Matrix(H, N, sp.symbols(f"C_1:{H * N + 1}", real=True)),
         "d": sp.Matrix(sp.symbols(f"d_1:{H + 1}", real=True)),
     }
-
-
-@memo()
-def lagrangian() -> sp.Expr:
-    """L = 1/2 phi^T phi + sum_i P(c_i phi - d_i) + lambda^T (J phi - dr/dt)."""
-    s, P = symbols(), sp.Function("P")
-    constraint = s["C"] * s["phi"] - s["d"]
-    energy = (s["phi"].T * s["phi"])[0] / 2
-    return (
-        energy + sum(map(P, constraint)) + (s["multiplier"].T * (s["J"] * s["phi"] - s["rate"]))[0]
-    )
-
-
-@memo()
-def gradients() -> sp.Matrix:
-    """dL/dphi over dL/dlambda."""
-    s = symbols()
-    return sp.Matrix([sp.diff(lagrangian(), v) for v in [*s["phi"], *s["multiplier"]]])
 
 
 @memo()

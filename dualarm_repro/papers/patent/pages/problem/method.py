@@ -16,11 +16,13 @@ from .....control.neural import fixed_step, network, optimality, penalty
 from .....control.neural.network_settings import NetworkSettings
 from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
+from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.diagrams import block_diagram, flow_chart
 from ...document import CONTROL_STEP, frozen
 
 checks = partial(REGISTRY.checks, page="patent/problem")
+caption = captions(__file__)
 
 
 class Step(NamedTuple):
@@ -93,7 +95,6 @@ def flow_chart_figure(assumed: Assumed) -> Result:
         for part, group in groupby(steps, key=lambda step: step.part)
     ]
     rows = [(step.part, step.text, place(step.code)) for step in steps]
-    counts = " and ".join(f"{len(texts)} of {part}" for part, texts in groups)
     return Result(
         obtained={
             "parts": [part for part, _ in groups],
@@ -101,12 +102,7 @@ def flow_chart_figure(assumed: Assumed) -> Result:
             "returns": len(trace()),
         },
         table=pd.DataFrame(rows, columns=["part", "step", "code"]),
-        caption=(
-            f"The method as it runs here. Two ticks of the closed loop were traced, {len(trace())} "
-            f"returns of functions; in the order in which they first end, its steps are {counts}. "
-            "The printed drawing is not in the text edition; the steps are listed in the text, "
-            "and the order of the run is compared with that list."
-        ),
+        caption=caption("fig01", groups=groups),
         alt="Flow chart with a column of boxes for each part of the method, in the order of a "
         "traced run.",
         figure=lambda: flow_chart(rows),
@@ -128,12 +124,7 @@ def device(assumed: Assumed) -> Result:
     left_out = [text for text in asked if text not in run]
     return Result(
         obtained={"not_run": len(left_out), "run": run},
-        caption=(
-            f"Processor {numbers['processor']} runs program {numbers['program']}, kept in memory "
-            f"{numbers['memory']}; of the {len(asked)} steps that the text gives the program, a "
-            f"traced run leaves out {len(left_out)}. The drawing is not in the text edition, so "
-            "it is drawn anew."
-        ),
+        caption=caption("fig03", numbers=numbers, asked=len(asked)),
         alt="Block diagram: a device that contains a processor and a memory, with the program in "
         "the memory.",
         figure=lambda: block_diagram(numbers, run),

@@ -22,6 +22,7 @@ from .....control.statement import statement
 from .....control.system import ArmSystem
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
+from .....ledger.captions import captions
 from .....scene.clearance import distances
 from .....tracking import memo
 from ...document import COARSE_STEP, SEED, frozen, redundant_arm, run
@@ -29,16 +30,14 @@ from ...reading import LIMITS, controller_settings, crossing
 from .velocities import STILL
 
 checks = partial(REGISTRY.checks, page="patent/problem")
+caption = captions(__file__)
 _AGREEMENT = 1e-5  # [rad/s] iterative solvers end at their tolerance
 _TICKS = 400  # steps at a bound, after which every joint is at its limit
 _STARTS = 5  # random configurations from which joints run at a bound
 _MOTIONS = 50  # random motions against the rows
 _CHECKED = 8  # configurations in which capsules have to contain meshes
 #: Robot to the URDF whose meshes its capsules have to contain.
-URDFS = {
-    "panda": "panda_description/urdf/panda.urdf",
-    "xarm7": "xarm_description/urdf/xarm7.urdf",
-}
+URDFS = {"panda": "panda_description/urdf/panda.urdf", "xarm7": "xarm_description/urdf/xarm7.urdf"}
 
 
 @checks(
@@ -78,13 +77,7 @@ def joint_limits(assumed: Assumed) -> Result:
                 angle = max(angle, float(outside.max()))
     return Result(
         obtained={"angle_excess": angle, "speed_excess": speed, "standing": standing},
-        caption=(
-            f"From {_STARTS} random configurations all joints run at their lower and at their "
-            f"upper bound for {_TICKS * COARSE_STEP:g} s. The largest excess over an angle limit "
-            f"is {angle:+.4f} rad (negative inside), over a speed limit {speed:+.1e} rad/s. "
-            "Limits of angle are announced in the text, and the inequality that follows is one on "
-            "speed."
-        ),
+        caption=caption("eq_joint_limits", starts=_STARTS, seconds=_TICKS * COARSE_STEP),
     )
 
 
@@ -113,22 +106,8 @@ def avoidance_rows(assumed: Assumed) -> Result:
     rows, faster = _closing(scenario, settings, q)
     excess = max(uncovered(assumed["robot"], assumed["capsules"]).values())
     return Result(
-        obtained={
-            "gradient": gradient,
-            "faster": faster,
-            "mesh_excess": excess,
-            "rows": rows,
-        },
-        caption=(
-            f"At a posture of the frozen task between the ranges {rows} rows are active. Row "
-            f"gradients agree with central differences of the distances to {gradient:.1e} m/rad, "
-            "in penetration as well. Random joint velocities, slowed down until they satisfy the "
-            f"rows, close no distance below d1 faster than the bound by more than {faster:.1e} "
-            "m/s. The vertices of the moving link meshes lie at least "
-            f"{-1e3 * excess:.2f} mm inside the capsules (negative: they stick out). "
-            "How J_N combines vector and Jacobian, and how beta follows from the ranges, is not in "
-            "the text."
-        ),
+        obtained={"gradient": gradient, "faster": faster, "mesh_excess": excess, "rows": rows},
+        caption=caption("eq_avoid"),
     )
 
 
@@ -159,26 +138,18 @@ def quadratic_program(assumed: Assumed) -> Result:
     policies = [
         VelocityController(scenario.system, settings, slack=slack) for slack in (True, False)
     ]
-    residual = max(r.residual for r in reference)
-    apart = max(row[1] for row in rows)
     return Result(
         obtained={
-            "residual": residual,
+            "residual": max(r.residual for r in reference),
             "disagree": sum(row[1] > _AGREEMENT for row in rows),
             "solvers": len(rows),
             "answered": sum(not _impossible(policy, scenario) for policy in policies),
         },
-        measured={"largest_difference": apart},
+        measured={"largest_difference": max(row[1] for row in rows)},
         table=pd.DataFrame(
             rows, columns=["solver", "largest difference [rad/s]", "largest residual"]
         ),
-        caption=(
-            f"{len(problems)} problems of the frozen task, up to "
-            f"{max(len(p.h) for p in problems)} avoidance rows: {len(rows)} solvers agree to "
-            f"{apart:.1e} rad/s, and the reference answers satisfy the optimality conditions to "
-            f"{residual:.1e}. A task that no joint velocity can meet is either answered with the "
-            "slack it needs, which is reported, or refused."
-        ),
+        caption=caption("eq_qp", problems=len(problems), most=max(len(p.h) for p in problems)),
     )
 
 

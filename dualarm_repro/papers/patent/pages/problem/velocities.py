@@ -13,12 +13,16 @@ from .....control.joint_ranges import random_configuration
 from .....control.redundancy import inertia_weighted, self_motion
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
+from .....control.system import ArmSystem
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Residual, Result
+from .....ledger.assumptions import alternatives
+from .....ledger.captions import captions
 from .....ledger.formula import Formula, parse
 from ...document import COARSE_STEP, CROSSING, SEED, frozen, run
 
 checks = partial(REGISTRY.checks, page="patent/problem")
+caption = captions(__file__)
 STILL = np.zeros((2, 3))
 
 
@@ -44,13 +48,7 @@ def forward_map(assumed: Assumed) -> Result:
             "unknowns": system.nq,
             "equations": 3 * len(system.arms),
         },
-        caption=(
-            f"The printed {printed.text} holds for {len(rows)} makes of arm: the map from "
-            f"{system.nq} joint angles to {3 * len(system.arms)} tip coordinates agrees with "
-            f"Pinocchio. It has no inverse: at least {other:.2f} rad away lies another posture "
-            "with the same tips, reached by a motion of the joints alone. That is why the text "
-            "turns to velocities, although it words f as the inverse map."
-        ),
+        caption=caption("eq_forward", printed=printed.text, makes=len(rows)),
     )
 
 
@@ -68,15 +66,13 @@ def velocity_map(assumed: Assumed) -> Result:
     worst, coupling = 0.0, 0.0
     for scenario in _scenarios():
         system = scenario.system
-        controller = VelocityController(system)
+        controller, n = VelocityController(system), system.arrays.start[1]
         for _ in range(20):
             q = random_configuration(system, rng)
             J = controller.problem(q, system.tips(q), STILL).A
-            columns = central_differences(lambda at, s=system: s.tips(at).ravel(), q)
-            worst = max(worst, float(np.abs(columns.T - J).max()))
-            n = system.arrays.start[1]
-            blocks = (J[:3, n:], J[3:, :n])
-            coupling = max(coupling, *(float(np.abs(block).max()) for block in blocks))
+            worst = max(worst, float(np.abs(_tip_jacobian(system, q) - J).max()))
+            apart = np.abs([J[:3, n:], J[3:, :n]])
+            coupling = max(coupling, float(apart.max()))
     return Result(
         obtained={"difference": worst, "coupling": coupling},
         caption=(
@@ -97,10 +93,8 @@ def velocity_map(assumed: Assumed) -> Result:
 )
 def least_velocity(assumed: Assumed) -> Result:
     """Minimiser of the weighted norm under the task alone, and its drift over five turns."""
-    scenario = frozen("crossing")
-    system = scenario.system
-    worst, excess = 0.0, 0.0
-    rng = np.random.default_rng(SEED)
+    scenario, rng = frozen("crossing"), np.random.default_rng(SEED)
+    system, worst, excess = scenario.system, 0.0, 0.0
     controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
     for _ in range(20):
         q, velocity = random_configuration(system, rng), rng.normal(size=(2, 3))
@@ -124,20 +118,18 @@ def least_velocity(assumed: Assumed) -> Result:
             [(turn + 1, *(drifts[w][turn] for w in drifts)) for turn in range(5)],
             columns=["turn", "drift [rad]", "drift with repetitive term [rad]"],
         ),
-        caption=(
-            "Least energy in the words of the text is the least norm of the joint velocity, which "
-            "under the task alone is the pseudo-inverse solution. The price: after one closed "
-            f"turn with avoidance a joint is {drifts[0.0][0]:.2f} rad from its start, after five "
-            f"{drifts[0.0][-1]:.2f} rad. With the pull lambda (q - q0), lambda = 2 1/s, it is at "
-            f"most {max(drifts[2.0]):.1e} rad."
-        ),
+        caption=caption("eq_min_energy"),
     )
+
+
+def _tip_jacobian(system: ArmSystem, q: np.ndarray) -> np.ndarray:
+    """Differences of the tips by the joint angles (6, n) [m/rad]."""
+    return central_differences(lambda at: system.tips(at).ravel(), q).T
 
 
 def _scenarios() -> list[FrozenScenario]:
     """The frozen crossing of every declared robot."""
-    robots = REGISTRY.declared("patent.robot", "choices").choices
-    return [frozen(CROSSING[robot]) for robot in robots]
+    return [frozen(CROSSING[robot]) for robot in alternatives("patent.robot", 0)]
 
 
 def _forward(printed: Formula, scenario: FrozenScenario) -> tuple[float, float, float]:

@@ -9,8 +9,7 @@ import pandas as pd
 
 from .....differences import central_differences
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
-from .....ledger.captions import point
-from .....ledger.formula import parse
+from .....ledger.captions import captions
 from .....ledger.printed import EXACT
 from .....planning.field.disc_field import DiscField
 from .....planning.field.joint_attraction import conic_force, conic_potential
@@ -21,13 +20,14 @@ from .....planning.search.search_field import repulsive_potential_at, repulsive_
 from .....planning.search.search_problem import SearchProblem, search_problem
 from .....view.force_field import force_field_figure
 from .....view.tip_paths import TipPanel, tip_path_figure
-from ...document import PRINTED, SEED, placed, repelling, spheres, value_of
+from ...document import PRINTED, SEED, placed, printed_side, repelling, spheres
 from ...reading import CONTROL_POINTS, Search
 
 checks = partial(REGISTRY.checks, page="qiu/field")
+caption = captions(__file__)
 _CONTACT = 1e-3
 _SAMPLES = 40
-_LOST = "the formula"
+_NO_FORMULA = NoOriginal("formula", "the formula")
 
 
 @checks(
@@ -39,22 +39,15 @@ _LOST = "the formula"
 )
 def principle(assumed: Assumed) -> Result:
     """A point among a goal and an obstacle: both forces and their sum."""
-    goal, centre, radius = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15
-    made = DiscField(goal, centre, radius, PRINTED.zeta, PRINTED.threshold, 4.0, PRINTED.influence)
+    place = np.array([1.0, 0.0]), np.array([0.45, -0.05]), 0.15  # goal, centre and radius
+    made = DiscField(*place, PRINTED.zeta, PRINTED.threshold, 4.0, PRINTED.influence)
     points = np.array([[0.0, 0.25], [0.12, 0.05], [0.45, 0.32], [0.75, -0.2]])
-    balance = max(made.imbalance(point) for point in points)
     return Result(
-        obtained={"balance": balance},
-        caption=(
-            "A point is drawn to its goal and pushed off the obstacle within the range of the "
-            "repulsion. At the four points shown the sum of the forces is the negative slope of "
-            f"the potential to {balance:.0e}. The drawing of the document is lost."
-        ),
+        obtained={"balance": max(made.imbalance(point) for point in points)},
+        caption=caption("fig04"),
         alt="Level lines of a potential around a disc and a goal; arrows of attraction, repulsion "
         "and their sum at four points.",
-        figure=lambda: force_field_figure(
-            made.potential, made.forces, goal, centre, radius, points
-        ),
+        figure=lambda: force_field_figure(made.potential, made.forces, *place, points),
     )
 
 
@@ -80,15 +73,9 @@ def control_points(assumed: Assumed) -> Result:
             "radii": list(chosen.radii),
             "distinct": bool(apart[~np.eye(len(points), dtype=bool)].min() > EXACT),
         },
-        caption=(
-            f"Control points as origins of joints {', '.join(chosen.joints)}: "
-            + "; ".join(f"({point(row, 3)}) m" for row in points)
-            + ". Under a modified table the last two of the printed three would be one point, and "
-            "the printed order of three weights would have nothing to tell "
-            "apart. The drawing is lost."
-        ),
-        alt="Stick figure of the arm at zero joints with three marked points: "
-        "elbow, wrist and flange.",
+        caption=caption("fig05", origins=chosen.joints),
+        alt="Stick figure of the arm at zero joints with three marked points: elbow, wrist and "
+        "flange.",
         figure=lambda: tip_path_figure([panel], []),
     )
 
@@ -99,38 +86,23 @@ def control_points(assumed: Assumed) -> Result:
 )
 def resultant(assumed: Assumed) -> Result:
     """The printed sides on postures along the way, slopes by central differences."""
-    formula = parse(REGISTRY.printed("qiu.eq04")["formula"])
     made = _problem(Search.nominal())
-    attraction = {
-        "goal": made.goal,
-        "gain": PRINTED.zeta,
-        "threshold": PRINTED.threshold,
-        "measure": Threshold.NORM,
-    }
-    worst = 0.0
+    attraction, worst = (made.goal, PRINTED.zeta, PRINTED.threshold, Threshold.NORM), 0.0
     for q in _postures(made.goal):
-        pull = conic_force(q, **attraction)
-        push = repulsive_torque_at(made, q)
+        pull, push = conic_force(q, *attraction), repulsive_torque_at(made, q)
         given = {
             "F": pull + push,
             "F_att": pull,
             "F_rep": push,
-            "U_att": partial(conic_potential, **attraction),
+            "U_att": lambda q: conic_potential(q, *attraction),
             "U_rep": partial(repulsive_potential_at, made),
             "grad": partial(central_differences, x=q),
         }
-        sides = [value_of(formula, k, given) for k in range(3)]
+        sides = [printed_side("eq04", k, given) for k in range(3)]
         size = float(np.linalg.norm(pull + push))
         gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
         worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
-    return Result(
-        obtained={"difference": worst, "postures": _SAMPLES},
-        caption=(
-            f"On {_SAMPLES} postures between start and goal the printed sides, the sum of both "
-            "forces and the negative slopes of both potentials, agree with the resultant of the "
-            f"code to a relative {worst:.0e}, by central differences."
-        ),
-    )
+    return Result(obtained={"difference": worst, "postures": _SAMPLES}, caption=caption("eq04"))
 
 
 @checks(
@@ -138,7 +110,7 @@ def resultant(assumed: Assumed) -> Result:
     rules=[
         Residual("jump", "jump of value or slope at the threshold, relative", high=1e-6),
         Residual("growth_far", "beyond the threshold it grows linearly, to", high=1e-9),
-        NoOriginal("formula", _LOST),
+        _NO_FORMULA,
     ],
 )
 def attractive_potential(assumed: Assumed) -> Result:
@@ -154,13 +126,7 @@ def attractive_potential(assumed: Assumed) -> Result:
         jumps.append(abs(slopes[1] - slopes[0]) / (zeta * d) - 0.5 * step / d)
         growths.append(abs(far - 2 * mid + near) / at)
     return Result(
-        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)},
-        caption=(
-            "The reconstructed attraction is half a square inside the threshold and grows linearly "
-            f"outside; at the threshold the slope jumps by {max(*jumps, 0.0):.0e} of its value, "
-            "whether the threshold applies to the norm of the error or to each joint. The "
-            "printed formula is lost."
-        ),
+        obtained={"jump": max(*jumps, 0.0), "growth_far": max(growths)}, caption=caption("eq05")
     )
 
 
@@ -169,7 +135,7 @@ def attractive_potential(assumed: Assumed) -> Result:
     rules=[
         Residual("difference", "force against finite differences, relative", high=1e-6),
         Residual("beyond_bound", "largest force beyond its bound, relative", high=1e-12),
-        NoOriginal("formula", _LOST),
+        _NO_FORMULA,
     ],
 )
 def attractive_force(assumed: Assumed) -> Result:
@@ -187,12 +153,7 @@ def attractive_force(assumed: Assumed) -> Result:
             largest = max(largest, float(np.linalg.norm(force)) / bound)
     return Result(
         obtained={"difference": worst, "beyond_bound": largest - 1.0, "bounds": bounds},
-        caption=(
-            f"The attraction is the negative slope of (5) to {worst:.0e} and never exceeds "
-            f"{bounds['norm']:g} where the threshold applies to the norm of the error and "
-            f"{bounds['per_joint']:.0f} where it applies to each joint. The "
-            "printed formula is lost."
-        ),
+        caption=caption("eq06"),
     )
 
 
@@ -201,7 +162,7 @@ def attractive_force(assumed: Assumed) -> Result:
     rules=[
         Residual("at_range", "value at the end of the range", high=1e-12),
         Is("grows", "it grows without bound towards the obstacle", value=True),
-        NoOriginal("formula", _LOST),
+        _NO_FORMULA,
     ],
 )
 def repulsive_potential(assumed: Assumed) -> Result:
@@ -214,10 +175,7 @@ def repulsive_potential(assumed: Assumed) -> Result:
             "grows": bool((np.diff(values) <= 0).all() and values[0] > 1e6 * values[2]),
         },
         table=pd.DataFrame({"rho_m": rho, "potential": values}),
-        caption=(
-            "The reconstructed repulsion of one control point vanishes from the end of its range "
-            "on and grows without bound towards the obstacle. The printed formula is lost."
-        ),
+        caption=caption("eq07"),
     )
 
 
@@ -231,7 +189,6 @@ def repulsive_potential(assumed: Assumed) -> Result:
 )
 def repulsive_force(assumed: Assumed) -> Result:
     """The printed gradient of the distance, and the force as the slope of (7)."""
-    formula = parse(REGISTRY.printed("qiu.eq08")["gradient"])
     made, eta0, influence = _problem(Search.nominal()), PRINTED.eta0, PRINTED.influence
     balls, worst, direction = list(spheres().values()), 0.0, 0.0
     for q in _postures(made.goal):
@@ -239,7 +196,8 @@ def repulsive_force(assumed: Assumed) -> Result:
         for k, m in zip(*np.nonzero(found.acting(made.settings.repulsion.sources)), strict=True):
             away = found.points[k] - balls[m].center
             foot = balls[m].center + balls[m].radius * away / np.linalg.norm(away)
-            printed = value_of(formula, 1, {"a_i": found.points[k], "O_s": foot})
+            ends = {"a_i": found.points[k], "O_s": foot}
+            printed = printed_side("eq08", 1, ends, "gradient")
             gap = float(np.linalg.norm(printed - found.outward[k, m]))
             direction = max(direction, gap if np.isfinite(gap) else np.inf)
             rho = float(found.distance[k, m])
@@ -249,22 +207,14 @@ def repulsive_force(assumed: Assumed) -> Result:
                 )
                 force = inverse_distance_force(rho, eta0, influence, _CONTACT)
                 worst = max(worst, abs(force + float(slope[0])) / max(force, 1.0))
-    return Result(
-        obtained={"direction": direction, "slope": worst},
-        caption=(
-            "The printed direction from the nearest obstacle point to the control point is the "
-            f"slope of the distance in the code to {direction:.0e}; with the factor of the "
-            f"textbook the force is the negative slope of (7) to {worst:.0e}. The factor is "
-            "not in the text edition."
-        ),
-    )
+    return Result(obtained={"direction": direction, "slope": worst}, caption=caption("eq08"))
 
 
 @checks(
     "qiu.eq09",
     rules=[
         Residual("difference", "joint forces against finite differences, relative", high=1e-5),
-        NoOriginal("formula", _LOST),
+        _NO_FORMULA,
     ],
 )
 def joint_forces(assumed: Assumed) -> Result:
@@ -274,21 +224,11 @@ def joint_forces(assumed: Assumed) -> Result:
     for points, sources in cases:
         made = _problem(Search.nominal(control_points=points, repulsion_sources=sources))
         for q in _postures(made.goal):
-            torque, numeric = (
-                repulsive_torque_at(made, q),
-                -central_differences(partial(repulsive_potential_at, made), q),
-            )
-            if np.linalg.norm(numeric) > 1.0:
-                gap = float(np.linalg.norm(torque - numeric) / np.linalg.norm(numeric))
-                worst = max(worst, gap)
-    return Result(
-        obtained={"difference": worst, "cases": len(cases)},
-        caption=(
-            "Carried over by transposed Jacobians, the point forces are the negative slope of the "
-            f"repulsive potential over the joints, to a relative {worst:.0e}, for every set of "
-            "control points. The printed formula is lost."
-        ),
-    )
+            slope = central_differences(partial(repulsive_potential_at, made), q)
+            if (size := np.linalg.norm(slope)) > 1.0:
+                gap = np.linalg.norm(repulsive_torque_at(made, q) + slope) / size
+                worst = max(worst, float(gap))
+    return Result(obtained={"difference": worst, "cases": len(cases)}, caption=caption("eq09"))
 
 
 def _problem(reading: Search) -> SearchProblem:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
-from .....ledger.formula import parse
+from .....ledger.captions import captions
 from .....ledger.printed import EXACT
 from .....ledger.printed_values import printed_numbers
 from .....planning.checks.recorded_steps import step_difference
@@ -16,11 +16,11 @@ from .....planning.descent.adaptive_step import step_length
 from .....planning.field.variable_gain import gain_factor
 from .....planning.search.bidirectional_settings import GainRule, StepRule
 from .....settings import code
-from ...document import PRINTED, goal_to_surface, value_of
-from ...reading import Goal, VariableGain
+from ...document import PRINTED, goal_to_surface, printed_side
+from ...reading import ANGLE_UNITS, Goal, VariableGain
 
 checks = partial(REGISTRY.checks, page="qiu/field")
-_SCALE = {"rad": 1.0, "deg": np.pi / 180.0}
+caption = captions(__file__)
 _FLIPS = 3
 
 
@@ -41,33 +41,23 @@ def variable_gain(assumed: Assumed) -> Result:
     """The printed product in a run, and the factor in its three candidate forms."""
     rule, kappa, band = GainRule(assumed["gain_rule"]), assumed["kappa"], assumed["delta_rho"]
     at, offsets = 0.2, np.linspace(-0.15, 0.15, 61)
-
-    def factors(chosen: GainRule) -> np.ndarray:
-        return np.array(
-            [gain_factor(code(chosen), kappa, band, at + x, at, _FLIPS) for x in offsets]
-        )
-
-    forms = {str(r): factors(r) for r in (GainRule.POWER, GainRule.RAMP, GainRule.PROPORTIONAL)}
-    outside = np.abs(offsets) > band + 1e-9
-    formula = parse(REGISTRY.printed("qiu.eq10")["formula"])
+    outside, middle = np.abs(offsets) > band + 1e-9, len(offsets) // 2
+    forms = {
+        str(r): np.array([gain_factor(code(r), kappa, band, at + x, at, _FLIPS) for x in offsets])
+        for r in (GainRule.POWER, GainRule.RAMP, GainRule.PROPORTIONAL)
+    }
     plan = VariableGain.nominal().plan()
     difference = step_difference(
-        plan, 0, lambda factor, initial: value_of(formula, 1, {"lambda_": factor, "eta_0": initial})
+        plan, 0, lambda factor, eta: printed_side("eq10", 1, {"lambda_": factor, "eta_0": eta})
     )
     return Result(
         obtained={
             "step_difference": difference,
             "outside_band": float(max(np.abs(f[outside] - 1.0).max() for f in forms.values())),
-            "at_flip": float(forms[str(rule)][len(offsets) // 2]),
+            "at_flip": float(forms[str(rule)][middle]),
         },
         table=pd.DataFrame({"rho_minus_rho_s_m": offsets} | forms),
-        caption=(
-            "With the printed product for the gain, every step of a run with "
-            f"{plan.record.flips[0]} flips is what the code makes, to {difference:.0e} rad. After "
-            f"{_FLIPS} flips the three candidate forms take lambda at the flip to "
-            + ", ".join(f"{f[len(offsets) // 2]:.3f} ({name})" for name, f in forms.items())
-            + " and leave it at one outside the band. Which of them was meant is not printed."
-        ),
+        caption=caption("eq10", plan=plan, most=_FLIPS, forms=forms, middle=middle),
     )
 
 
@@ -107,13 +97,7 @@ def adaptive_step(assumed: Assumed) -> Result:
             "largest_over_alpha0": {name: float(f.max() / alpha0) for name, f in forms.items()},
         },
         table=pd.DataFrame({"rho_m": rho} | forms),
-        caption=(
-            f"The form used ({chosen}) takes the step from {used[0] / alpha0:.2f} of the first one "
-            f"beside an obstacle to {used[-1] / alpha0:.2f} far away; of all forms "
-            + ", ".join(name for name, f in forms.items() if f.max() > alpha0 * (1 + 1e-9))
-            + f" exceeds the first step, up to {max(f.max() for f in forms.values()) / alpha0:g} "
-            "times. The formula is lost."
-        ),
+        caption=caption("eq12", chosen=chosen, ends=used[[0, -1]] / alpha0),
     )
 
 
@@ -123,8 +107,8 @@ def adaptive_step(assumed: Assumed) -> Result:
         Adopts("alpha0", "first step", to="alpha0"),
         Bounded(
             "steps_missing",
-            "steps of the straight joint line beyond those that the printed "
-            "searches of both ends make",
+            "steps of the straight joint line beyond those that the printed searches of both ends "
+            "make",
             high=0.0,
         ),
     ],
@@ -133,7 +117,7 @@ def first_step(assumed: Assumed) -> Result:
     """The first step, and whether the printed searches cover the straight line in its unit."""
     unit, alpha0 = assumed["angle_unit"], PRINTED.alpha0
     straight = float(np.linalg.norm(Goal.of(assumed).posture() - PRINTED.start))
-    needed = straight / (alpha0 * _SCALE[unit])
+    needed = straight / (alpha0 * ANGLE_UNITS[unit])
     made = int(printed_numbers("qiu.claim_bi_counts", "forward", "backward").sum())
     return Result(
         obtained={
@@ -142,11 +126,7 @@ def first_step(assumed: Assumed) -> Result:
             "steps_for_the_straight_line": needed,
             "least_mean_step_over_alpha0": needed / made,
         },
-        caption=(
-            f"The step is used as printed, in {unit}: the straight line of {straight:.2f} rad from "
-            f"start to goal takes {needed:.0f} of them, the printed searches of both ends make "
-            f"{made}. A mean step below {needed / made:.2f} of it could not have met print."
-        ),
+        caption=caption("claim_alpha0", unit=unit, straight=straight, made=made),
     )
 
 
@@ -163,13 +143,7 @@ def threshold(assumed: Assumed) -> Result:
 @checks("qiu.claim_zeta", samples=32, rules=[Adopts("zeta", "attractive gain", to="zeta")])
 def attractive_gain(assumed: Assumed) -> Result:
     """The attractive gain."""
-    return Result(
-        obtained={"zeta": PRINTED.zeta},
-        caption=(
-            "The gain is used as printed. As every step has the same length, only the ratio of the "
-            "repulsive gain to it counts."
-        ),
-    )
+    return Result({"zeta": PRINTED.zeta}, caption("claim_zeta"))
 
 
 @checks(
@@ -192,13 +166,7 @@ def repulsion_range(assumed: Assumed) -> Result:
     """The range of the repulsion."""
     rho0 = PRINTED.influence
     within = int((goal_to_surface() < rho0).sum())
-    return Result(
-        obtained={"rho0": rho0, "spheres_within": within},
-        caption=(
-            f"The range is used as printed, as the greatest distance; {within} of the spheres are "
-            "within it of the printed goal."
-        ),
-    )
+    return Result({"rho0": rho0, "spheres_within": within}, caption("claim_rho0"))
 
 
 @checks(
@@ -211,13 +179,8 @@ def kappa_range(assumed: Assumed) -> Result:
     low, high = (float(end) for end in text[1:-1].split(","))
     outside = (kappa == low and text[0] == "(") or (kappa == high and text[-1] == ")")
     beyond = max(low - kappa, kappa - high, EXACT if outside else -np.inf)
-    return Result(
-        obtained={"beyond": float(beyond), "kappa": kappa},
-        caption=(
-            f"kappa = {kappa:g} is {'inside' if beyond <= 0.0 else 'outside'} the printed interval "
-            f"{text}. With a gain that falls as a power, kappa = 1 leaves it constant."
-        ),
-    )
+    told = caption("claim_kappa_range", interval=text)
+    return Result({"beyond": float(beyond), "kappa": kappa}, told)
 
 
 @checks(
@@ -237,10 +200,5 @@ def weight_order(assumed: Assumed) -> Result:
     known = {f"tau_{k}": weight / sum(tau) for k, weight in enumerate(tau, 1)}
     chain = [known[name] if name in known else float(name) for name in text.split(" > ")]
     least = float(-np.diff(chain).max())
-    return Result(
-        obtained={"least_difference": least, "weights": list(tau)},
-        caption=(
-            f"Weights {', '.join(map(str, tau))}: {'in' if least > 0.0 else 'not in'} "
-            f"the printed order {text}."
-        ),
-    )
+    told = caption("claim_tau_order", order=text)
+    return Result({"least_difference": least, "weights": list(tau)}, told)

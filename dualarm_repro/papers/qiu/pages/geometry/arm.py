@@ -14,11 +14,12 @@ from .....arms import load_arm
 from .....arms.dh import joint_symbols
 from .....arms.link_chains import coinciding, frames_at_zero, modified_chain, offset_chain
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.arm_drawings import dimension_drawing, frames_figure
 from ...document import PRINTED, ROBOT, SEED, robot
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
+caption = captions(__file__)
 
 
 @checks(
@@ -31,31 +32,19 @@ checks = partial(REGISTRY.checks, page="qiu/geometry")
 def dimensions(assumed: Assumed) -> Result:
     """Side view of the public arm with its dimensions."""
     size = assumed["link_lengths"]
-    d1, a2, a3, d4, d6 = (size[name] for name in ("d1", "a2", "a3", "d4", "d6"))
+    names = ("d1", "a2", "a3", "d4", "d6")
+    d1, a2, a3, d4, d6 = (size[name] for name in names)
     top = d1 + a2 + a3
     outline = np.array([[0, 0], [0, d1], [0, d1 + a2], [0, top], [d4, top], [d4 + d6, top]])
-    beside = {
-        "d1": (-0.08, 0),
-        "a2": (-0.08, 0),
-        "a3": (-0.08, 0),
-        "d4": (0, 0.08),
-        "d6": (0, 0.08),
-    }
-    lines = [
-        (name, outline[k], outline[k + 1], offset)
-        for k, (name, offset) in enumerate(beside.items())
-    ]
+    beside = [(-0.08, 0.0)] * 3 + [(0.0, 0.08)] * 2
+    lines = list(zip(names, outline[:-1], outline[1:], beside, strict=True))
     tip = load_arm(ROBOT).fk(PRINTED.start)[:3, 3]
     return Result(
         obtained={
             "lengths": size,
             "flange_error": float(np.linalg.norm(outline[-1] - tip[[0, 2]])),
         },
-        caption=(
-            "Dimensions of the public IRB 120 in millimetres: "
-            + ", ".join(f"{name} = {1000 * value:.0f}" for name, value in size.items())
-            + ". The drawing itself is lost, so nothing printed stands against them."
-        ),
+        caption=caption("fig01"),
         alt="Side view of the arm at zero joints as a line from base over elbow and wrist to the "
         "flange, with its five lengths in millimetres.",
         figure=lambda: dimension_drawing(outline, lines),
@@ -76,18 +65,14 @@ def link_frames(assumed: Assumed) -> Result:
     """Frames of the standard table at zero joints, and the flange by either convention."""
     frames = frames_at_zero(load_arm(ROBOT))
     tip = load_arm(ROBOT).fk(PRINTED.start)[:3, 3]
-    difference = float(np.linalg.norm(_modified_tip(assumed["link_lengths"]) - tip))
+    other = _modified_tip(assumed["link_lengths"])
     return Result(
         obtained={
             "flange": tip.tolist(),
-            "convention_difference": difference,
+            "convention_difference": float(np.linalg.norm(other - tip)),
             "coinciding_origins": coinciding(frames[1:]),
         },
-        caption=(
-            f"Link frames of the standard table at zero joints; the flange is at ({point(tip, 3)}) "
-            "m. A modified table of the same lengths puts the flange at the same "
-            "place. The sketch is lost."
-        ),
+        caption=caption("fig02"),
         alt="Seven coordinate frames on the skeleton of the arm at zero "
         "joints, from base to flange.",
         figure=lambda: frames_figure(frames, 0.09),
@@ -104,33 +89,20 @@ def link_frames(assumed: Assumed) -> Result:
 )
 def table_1(assumed: Assumed) -> Result:
     """The table of the public arm, checked against a chain of plain offsets along fixed axes."""
-    arm, made = load_arm(ROBOT), robot()
+    arm, joints = load_arm(ROBOT), robot().joints
     q = arm.random_configurations(500, np.random.default_rng(SEED))
     other = np.array([flange_by_offsets(row, assumed["link_lengths"]).translation for row in q])
     difference = float(np.abs(arm.fk(q)[:, :3, 3] - other).max())
-    rows = [
-        {
-            "i": k,
-            "theta": f"q{k} + {float(j.offset):.4f}",
-            "d": j.d,
-            "a": j.a,
-            "alpha": float(j.alpha),
-        }
-        for k, j in enumerate(made.joints, 1)
-    ]
+    columns = {
+        "d": [j.d for j in joints],
+        "a": [j.a for j in joints],
+        "alpha": [float(j.alpha) for j in joints],
+    }
+    angles = [f"q{k} + {float(j.offset):.4f}" for k, j in enumerate(joints, 1)]
     return Result(
-        obtained={
-            "d": [j.d for j in made.joints],
-            "a": [j.a for j in made.joints],
-            "alpha": [float(j.alpha) for j in made.joints],
-            "second_model": difference,
-        },
-        table=pd.DataFrame(rows),
-        caption=(
-            "The standard table of the public arm agrees on 500 random configurations with a "
-            f"second model that knows only offsets and axes, to {difference:.1e} m. "
-            "The printed rows are lost."
-        ),
+        obtained={**columns, "second_model": difference},
+        table=pd.DataFrame({"i": range(1, len(joints) + 1), "theta": angles} | columns),
+        caption=caption("tab01"),
     )
 
 

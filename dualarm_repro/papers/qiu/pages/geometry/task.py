@@ -3,28 +3,18 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pinocchio as pin
 
 from .....errors import InputError
-from .....ledger import (
-    REGISTRY,
-    Adopts,
-    Assumed,
-    Bounded,
-    Is,
-    NoOriginal,
-    Residual,
-    Result,
-    Role,
-    Rounds,
-)
-from .....ledger.captions import point
-from .....ledger.formula import parse
+from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Rounds
+from .....ledger.captions import captions
 from .....ledger.printed import read_number
 from .....ledger.printed_values import printed_numbers
+from .....ledger.rules import Role
 from .....planning.field.control_points import end_effector
 from .....planning.tasks.elbow_branches import BRANCHES, branch_posture, pulled_back, shoulder
 from .....planning.tasks.tip_goal import tip_posture
@@ -36,21 +26,17 @@ from ...document import (
     SEED,
     goal_to_surface,
     placed,
+    printed_side,
     reach,
     shoulder_to_goal,
-    value_of,
 )
+from ...ends import JOINT_COLUMNS, TIP_COLUMNS
 from ...reading import Goal, GoalBox, SlaveGoal
 from .arm import flange_by_offsets
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
-_INPUT = {"tolerance": 1e-12, "reason": "difference of two printed inputs"}
-_WAYS = {
-    "pulled_back": "pulled back along the ray from the shoulder",
-    "best_effort": "the nearest point that the arm reaches",
-    "longer_tool": "reached with a tool",
-    "moved_base": "reached from a base moved along x",
-}
+caption = captions(__file__)
+_given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inputs")
 
 
 @checks(
@@ -65,26 +51,21 @@ _WAYS = {
 )
 def base_translation(assumed: Assumed) -> Result:
     """The printed formula with the printed master base and the assumed translation."""
-    formula = parse(REGISTRY.printed("qiu.eq03")["formula"])
     bases, shift = PRINTED.bases, np.array([assumed["base_translation"], 0.0, 0.0])
     vectors = {"X_slaver": bases["slave"], "X_master": bases["master"], "T_trans": shift}
     given = {name: pin.SE3(np.eye(3), at).homogeneous for name, at in vectors.items()}
-    left, right = (value_of(formula, side, given) for side in (0, 1))
+    left, right = (printed_side("eq03", side, given) for side in (0, 1))
     return Result(
         obtained={"translation": shift.tolist(), "miss": float(np.abs(left - right).max())},
-        caption=(
-            f"With a translation by {shift[0]:.3f} m along x the printed formula carries the "
-            f"printed master base to within {np.abs(left - right).max():.0e} m of the printed "
-            "slave base; no rotation is involved."
-        ),
+        caption=caption("eq03"),
     )
 
 
 @checks(
     "qiu.fig03",
     rules=[
-        Rounds(key="base_master", to="base_master", label="base of the master [m]", **_INPUT),
-        Rounds(key="base_slave", to="base_slave", label="base of the slave [m]", **_INPUT),
+        _given("base_master", "base of the master [m]", to="base_master"),
+        _given("base_slave", "base of the slave [m]", to="base_slave"),
         Is(
             "turn_nearest_to_print",
             "of the quarter turns, this one brings the start tips nearest to print",
@@ -99,7 +80,6 @@ def both_arms(assumed: Assumed) -> Result:
     bases = {name: arm.placement.translation for name, arm in arms.items()}
     bases["slave"] = bases["master"] + np.array([assumed["base_translation"], 0.0, 0.0])
     zero, gaps = PRINTED.start, gap_by_turn()
-
     return Result(
         obtained={
             "base_master": bases["master"].tolist(),
@@ -107,15 +87,11 @@ def both_arms(assumed: Assumed) -> Result:
             "turn_nearest_to_print": gaps[assumed["base_yaw"]] == min(gaps.values()),
             "gap_by_turn": {str(yaw): gap for yaw, gap in gaps.items()},
         },
-        caption=(
-            f"Both arms at zero joints, turned by {assumed['base_yaw']:g} deg about the vertical, "
-            f"which puts the tip {1e3 * gaps[assumed['base_yaw']]:.0f} mm from the printed start; "
-            f"another quarter turn at least {1e3 * sorted(gaps.values())[1]:.0f} mm. The bases "
-            "mirror each other in the yz plane, yet the arms do not: one is the other moved "
-            f"{abs(assumed['base_translation']):g} m along x."
+        caption=caption(
+            "fig03", yaw=assumed["base_yaw"], gaps=gaps, shift=abs(assumed["base_translation"])
         ),
-        alt="Stick figures of two equal arms side by side, both reaching "
-        "along y at the same height.",
+        alt="Stick figures of two equal arms side by side, both reaching along y at the same "
+        "height.",
         figure=lambda: stick_figure({n: (a.arm, zero, a.placement) for n, a in arms.items()}),
         scene=lambda: standing(
             "Both arms at zero joints on the printed bases.", arms.values(), zero, (1.6, 1.9, 1.3)
@@ -159,63 +135,45 @@ def bases(assumed: Assumed) -> Result:
 )
 def obstacles(assumed: Assumed) -> Result:
     """Both spheres, and how they stand to the printed goal."""
-    gaps = goal_to_surface()
     return Result(
         obtained={
             "radius": PRINTED.radius,
             "centres": PRINTED.centres.tolist(),
-            "goal_to_surface": gaps.tolist(),
+            "goal_to_surface": goal_to_surface().tolist(),
         },
-        caption=(
-            f"Both spheres are used as printed. Their surfaces are {gaps[0]:.3f} m and "
-            f"{gaps[1]:.3f} m from the printed goal of the master, inside the range "
-            f"{PRINTED.influence:g} m of the repulsion."
-        ),
+        caption=caption("claim_obstacles", reach=PRINTED.influence),
     )
 
 
-@checks(
-    "qiu.claim_start",
-    rules=[
-        Bounded(
-            "beyond_digits",
-            "printed tip against the tip at the printed joints, beyond the printed digits [m]",
-            low=0.0,
-            role=Role.CONTRADICTS,
-        )
-    ],
-)
+def _contradiction(printed: str) -> Bounded:
+    """The rule that the printed start and the printed joints exclude each other."""
+    label = f"{printed} against the tip at the printed joints, beyond the printed digits [m]"
+    return Bounded("beyond_digits", label, low=0.0, role=Role.CONTRADICTS)
+
+
+@checks("qiu.claim_start", rules=[_contradiction("printed tip")])
 def start(assumed: Assumed) -> Result:
     """The tip at the printed joints against the printed tip."""
-    return _start(assumed, "master", REGISTRY.printed("qiu.claim_start")["tcp"])
+    begin = _start(assumed, "master", REGISTRY.printed("qiu.claim_start")["tcp"])
+    obtained = {key: begin[key] for key in ("tcp", "gap", "beyond_digits")}
+    return Result({"q": PRINTED.start.tolist(), **obtained}, caption("start", **begin))
 
 
-def _start(assumed: Assumed, name: str, printed: list[str]) -> Result:
-    angles, base = PRINTED.start, PRINTED.bases[name]
+def _start(assumed: Assumed, name: str, printed: list[str]) -> dict[str, Any]:
+    """The tip of an arm at the printed joints, how far it is from the printed one along each axis
+    and in all, and the largest part of that beyond the printed digits [m]."""
     turn = pin.rpy.rpyToMatrix(0.0, 0.0, np.deg2rad(assumed["base_yaw"]))
-    tip = pin.SE3(turn, base).act(flange_by_offsets(angles, assumed["link_lengths"]).translation)
-    read = [read_number(text) for text in printed]
-    gaps = [abs(value - there) for value, (there, _) in zip(tip, read, strict=True)]
-    beyond = [gap - half for gap, (_, half) in zip(gaps, read, strict=True)]
-    distance = float(np.linalg.norm(gaps))
-    return Result(
-        obtained={
-            "q": angles.tolist(),
-            "tcp": tip.tolist(),
-            "gap": distance,
-            "beyond_digits": float(max(beyond)),
-        },
-        caption=(
-            f"At the printed joints the flange of the {name} is at ({point(tip, 3)}) m, "
-            f"{1e3 * distance:.1f} mm from the printed tip: {1e3 * gaps[1]:.0f} mm in y and "
-            f"{1e3 * gaps[2]:.0f} mm in height. "
-            + (
-                "Joints and tip of one start contradict each other; the joints are used."
-                if max(beyond) >= 0.0
-                else "Joints and tip agree to the printed digits."
-            )
-        ),
-    )
+    flange = flange_by_offsets(PRINTED.start, assumed["link_lengths"]).translation
+    tip = pin.SE3(turn, PRINTED.bases[name]).act(flange)
+    there, half = np.transpose([read_number(text) for text in printed])
+    gaps = abs(tip - there)
+    return {
+        "arm": name,
+        "tcp": tip.tolist(),
+        "gaps": gaps,
+        "gap": float(np.linalg.norm(gaps)),
+        "beyond_digits": float(max(gaps - half)),
+    }
 
 
 @checks(
@@ -232,7 +190,7 @@ def goal(assumed: Assumed) -> Result:
     reading, wanted = Goal.of(assumed), PRINTED.master_goal
     q = reading.posture()
     tip = end_effector(reading.arm(), q)
-    distance, moved = shoulder_to_goal(), float(np.linalg.norm(tip - wanted))
+    distance = shoulder_to_goal()
     lower, upper = np.deg2rad(np.array(assumed["joint_limits"], dtype=float)).T
     best = tip_posture(placed("master"), wanted, q, best_effort=True)
     inside, branches = pulled_back(placed("master"), wanted, reading.goal_radius), {}
@@ -248,21 +206,14 @@ def goal(assumed: Assumed) -> Result:
             "printed_distance": distance,
             "reach": reach(),
             "beyond_reach": distance - reach(),
-            "moved": moved,
+            "moved": float(np.linalg.norm(tip - wanted)),
             "refusal": _refusal(),
             "nearest_reachable": best.tip.tolist(),
             "nearest_residual": best.residual,
             "branches_deg": branches,
         },
         table=_changes(),
-        caption=(
-            f"The printed goal is {distance:.4f} m from the shoulder and the straight arm reaches "
-            f"{reach():.4f} m: {1e3 * (distance - reach()):.1f} mm are missing, and the planner "
-            f"refuses it. The nearest reachable point is ({point(best.tip, 3)}) m. The goal "
-            f"planned to is ({point(tip, 3)}) m, {1e3 * moved:.0f} mm from print "
-            f"({_WAYS[reading.master_goal]}), with joints "
-            f"{', '.join(f'{x:.1f}' for x in np.rad2deg(q))} deg."
-        ),
+        caption=caption("claim_goal", reading=reading.master_goal),
     )
 
 
@@ -290,42 +241,24 @@ def _changes() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["change", "least_amount_m"])
 
 
-@checks(
-    "qiu.claim_slave_task",
-    rules=[
-        Bounded(
-            "beyond_digits",
-            "printed start against the tip at the printed joints, beyond the printed digits [m]",
-            low=0.0,
-            role=Role.CONTRADICTS,
-        )
-    ],
-)
+@checks("qiu.claim_slave_task", rules=[_contradiction("printed start")])
 def slave_task(assumed: Assumed) -> Result:
     """Start and goal of the slave, and the postures that reach the goal."""
-    printed = REGISTRY.printed("qiu.claim_slave_task")["start"]
+    printed, reading = REGISTRY.printed("qiu.claim_slave_task")["start"], SlaveGoal.of(assumed)
     begin = _start(assumed, "slave", printed)
-    reading = SlaveGoal.of(assumed)
     q, found = reading.slave_posture(), reading.slave_postures()
-    tip = end_effector(placed("slave"), q)
     limits = np.deg2rad(np.array(assumed["joint_limits"], dtype=float))
     inside = [b for b, p in found.items() if ((p >= limits[:, 0]) & (p <= limits[:, 1])).all()]
-    away = float(np.linalg.norm(PRINTED.slave_goal - shoulder(placed("slave"))))
     return Result(
         obtained={
-            "start": begin.obtained["tcp"],
-            "beyond_digits": begin.obtained["beyond_digits"],
-            "goal": tip.tolist(),
+            "start": begin["tcp"],
+            "beyond_digits": begin["beyond_digits"],
+            "goal": end_effector(placed("slave"), q).tolist(),
             "q_deg": np.rad2deg(q).tolist(),
-            "distance": away,
+            "distance": float(np.linalg.norm(PRINTED.slave_goal - shoulder(placed("slave")))),
             "branches_within_limits": inside,
         },
-        caption=(
-            f"{begin.caption} Its goal is {away:.3f} m from the shoulder, within reach; of the "
-            f"{len(found)} postures with the assumed wrist angles {len(inside)} is within the "
-            f"joint limits ({', '.join(inside)}); the one used has joints "
-            f"{', '.join(f'{x:.1f}' for x in np.rad2deg(q))} deg."
-        ),
+        caption=caption("start", **begin, postures=len(found)),
     )
 
 
@@ -341,16 +274,13 @@ def slave_task(assumed: Assumed) -> Result:
     ],
 )
 def goals_15(assumed: Assumed) -> Result:
-    """A seeded set of goals with its rejections.
-
-    Near the printed goal means nearer to it than the nearer sphere is.
-    """
+    """A seeded set of goals with its rejections; near means nearer than the nearer sphere is."""
     drawn = GoalBox.of(assumed).draw(SEED)
     centre = printed_numbers("qiu.claim_goals15", "centre")
     nearer = float(np.linalg.norm(PRINTED.centres - centre, axis=1).min()) - PRINTED.radius
     farthest = float(np.linalg.norm(drawn.points - centre, axis=1).max(initial=0.0))
-    table = pd.DataFrame(drawn.points, columns=["x_m", "y_m", "z_m"])
-    table[[f"q{j}_deg" for j in range(1, 7)]] = np.rad2deg(drawn.q)
+    table = pd.DataFrame(drawn.points, columns=TIP_COLUMNS)
+    table[JOINT_COLUMNS] = np.rad2deg(drawn.q)
     return Result(
         obtained={
             "count": len(np.unique(drawn.points, axis=0)),
@@ -359,11 +289,7 @@ def goals_15(assumed: Assumed) -> Result:
             "rejected": drawn.rejected,
         },
         table=table,
-        caption=(
-            f"{len(drawn.q)} goals in a box of half width "
-            f"{assumed['goal_set']:g} m; rejected draws: "
-            + ", ".join(f"{count} {reason}" for reason, count in drawn.rejected.items())
-            + f". The farthest is {1e3 * farthest:.0f} mm from the printed goal, the nearer "
-            f"sphere {1e3 * nearer:.0f} mm."
+        caption=caption(
+            "claim_goals15", goals=len(drawn.q), width=assumed["goal_set"], nearer=nearer
         ),
     )

@@ -8,24 +8,23 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Residual, Result
+from .....ledger.captions import captions
 from .....ledger.printed import read_number
 from .....ledger.witnesses import cell_witnesses
 from .....planning.checks.hull_cover import protrusions
 from .....planning.checks.query_cost import query_operations, query_times
-from .....planning.field.hull_obstacle import (
-    circles_on,
-    hull_track,
-)
+from .....planning.field.hull_obstacle import circles_on, hull_track
 from .....scene import ConvexHull
 from .....scene.posing import links_of
 from .....view.arm_scenes import inside_hull
 from .....view.hull_drawing import hull_figure
-from ...document import SEED, placed
-from ...reading import JUDGED_BY, Hull, Links
+from ...document import SEED, arm_in_use, placed
+from ...ends import TIP_COLUMNS
+from ...reading import ANGLE_UNITS, JUDGED_BY, Hull, Links
 from ...studies.dual_pairs import PAIR_POINTS, PAIR_RATIOS, PAIRS
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
-_UNIT = {"rad": 1.0, "deg": np.pi / 180.0}
+caption = captions(__file__)
 _POSES = 40
 _COUNTED = 12
 _QUERIES = 2000
@@ -45,7 +44,7 @@ _QUERIES = 2000
 )
 def hull_of_the_posture(assumed: Assumed) -> Result:
     """The hull over the circles at the six joint origins in the printed posture."""
-    unit = _UNIT[assumed["angle_unit"]]
+    unit = ANGLE_UNITS[assumed["angle_unit"]]
     read = [read_number(text) for text in REGISTRY.printed("qiu.fig09")["q"]]
     arm, q = placed("master"), unit * np.array([value for value, _ in read])
     beyond = abs(q[4] - 0.5 * np.pi) - unit * read[4][1]
@@ -56,7 +55,6 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
     outside = float((points @ track.planes[0, :, :3].T + track.planes[0, :, 3]).max())
     sticking = protrusions(arm, q[np.newaxis], circles)[0]
     rings = points.reshape(6, -1, 3)
-
     title = "The arm in the posture of Fig. 9 and the hull of its circles."
     return Result(
         obtained={
@@ -67,12 +65,8 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
             "faces": len(hull.faces),
             "largest_protrusion": float(sticking.max()),
         },
-        table=pd.DataFrame(points, columns=["x_m", "y_m", "z_m"]),
-        caption=(
-            f"Hull over six circles in the printed posture: {len(hull.vertices)} vertices, "
-            f"{1e3 * hull.volume:.1f} litres. It contains the circles, while a link of the arm "
-            f"sticks out by up to {1e3 * sticking.max():.0f} mm. No radius is printed."
-        ),
+        table=pd.DataFrame(points, columns=TIP_COLUMNS),
+        caption=caption("fig09"),
         alt="Stick figure of the arm with six circles at its joints inside a translucent "
         "convex hull, from two sides.",
         figure=lambda: hull_figure(arm, q, hull, rings),
@@ -96,10 +90,11 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
 )
 def hull_claim(assumed: Assumed) -> Result:
     """Success of the search around the hull, and its cost beside that of capsules."""
-    arm, circles = placed("master", radii=Links.of(assumed).radii), Hull.of(assumed).circles()
+    arm = placed("master", arm=arm_in_use(0.0, Links.of(assumed).radii))
+    circles = Hull.of(assumed).circles()
     q = arm.arm.random_configurations(_POSES, np.random.default_rng(SEED))
     track, sticking = hull_track(circles_on(arm, circles, q)), protrusions(arm, q, circles)
-    rng = np.random.default_rng(SEED)
+    most, rng = sticking.max(axis=1), np.random.default_rng(SEED)
     hull_cost, capsule_cost = query_operations(arm, track, q[:_COUNTED], rng)
     judged = JUDGED_BY[assumed["success_rule"]]
     table = PAIRS.load()
@@ -110,7 +105,7 @@ def hull_claim(assumed: Assumed) -> Result:
         "effective": {"count": int(planned.sum()), "of": len(cells)},
         "operations_ratio": hull_cost / capsule_cost,
         "judged_by": judged,
-        "median_protrusion": float(np.median(sticking.max(axis=1))),
+        "median_protrusion": float(np.median(most)),
         "largest_protrusion": float(sticking.max()),
         "protrusion_by_link": dict(
             zip(links_of(arm.arm).names, sticking.max(axis=0).tolist(), strict=True)
@@ -119,15 +114,7 @@ def hull_claim(assumed: Assumed) -> Result:
     return Result(
         obtained=obtained,
         measured=query_times(arm, track, (0.2, 0.1, 0.9), _QUERIES),
-        caption=(
-            f"Judged by the {judged}, {planned.mean():.0%} of {len(cells)} searches around the "
-            "moving hull (random pairs of goals, control points and gain ratios) succeed. A "
-            f"distance to the hull takes {hull_cost:.0f} additions, multiplications, divisions and "
-            f"roots, counted in runs, against {capsule_cost:.0f} for the capsules of the arm, and "
-            f"the hull has to be built for every posture first. Over {_POSES} random postures the "
-            f"links stick out of it by {1e3 * np.median(sticking.max(axis=1)):.0f} mm in the "
-            f"median and {1e3 * sticking.max():.0f} mm at most."
-        ),
+        caption=caption("claim_hull_valid", hull=hull_cost, capsules=capsule_cost, poses=_POSES),
         witnesses=cell_witnesses(
             "qiu.claim_hull_valid", obtained, cells, planned, ("pair", "reading")
         ),

@@ -8,54 +8,36 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
+from .....ledger.captions import captions
 from .....planning.checks.contact_check import SAMPLING
 from .....planning.field.control_points import end_effector
 from .....planning.search.dual_search import DualSearch
 from .....scene import Scene, densify, distances
 from .....view.arm_scenes import pair_panel, played_pair
-from .....view.search_curves import coordinate_figure, joint_figure
 from .....view.tip_paths import tip_path_figure
+from ... import ends
 from ...document import ARMS, FACE_VALUE, PRINTED, spheres
 from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
+caption = captions(__file__)
 _PLAYED = (
     "Both arms on their paths (reconstruction); translucent: hull of the master at its middle pose."
 )
 
 
-@checks(
-    "qiu.fig15",
-    rules=[
-        Bounded(
-            "largest_step", "largest step of a joint on the smoothed path [rad]", high="two_steps"
-        ),
-        NoOriginal("curves", "the curves"),
-    ],
-)
+@checks("qiu.fig15", rules=ends.JOINT_RULES)
 def slave_joints(assumed: Assumed) -> Result:
     """Joint angles of the slave while the hull of the master moves."""
     plans = Slave.of(assumed).dual_readings()
     face, other = plans.values()
-    return Result(
-        obtained={
-            "largest_step": float(np.abs(np.diff(face.slave_path, axis=0)).max()),
-            "joined": face.slave.reached,
-            "reconstruction_joined": other.slave.reached,
-            "range_deg": np.rad2deg(np.ptp(face.slave_path, axis=0)).tolist(),
-        },
-        table=pd.DataFrame(np.rad2deg(face.slave_path), columns=[f"q{j}_deg" for j in range(1, 7)]),
-        caption=(
-            f"Joint angles of the slave over its smoothed path, {len(face.slave_path)} samples at "
-            f"face value and {len(other.slave_path)} in the reconstruction; junctions dotted. The "
-            "printed curves are lost."
-        ),
-        alt="Six panels of joint angles of the slave over the samples of "
-        "its path, for two readings.",
-        figure=lambda: joint_figure(
-            {name: plan.slave_path for name, plan in plans.items()},
-            [plan.slave.searches + 0.5 for plan in plans.values()],
-        ),
+    return ends.joints_of(
+        {name: plan.slave_path for name, plan in plans.items()},
+        [face.slave, other.slave],
+        caption("fig15", samples=[len(face.slave_path), len(other.slave_path)]),
+        "Six panels of joint angles of the slave over the samples of its path, for two readings.",
+        joined=face.slave.reached,
+        reconstruction_joined=other.slave.reached,
     )
 
 
@@ -63,34 +45,21 @@ def slave_joints(assumed: Assumed) -> Result:
     "qiu.fig16",
     rules=[
         Bounded("end_error", "distance of the ends to start and goal [m]", high="held"),
-        Bounded("largest_step", "largest step of the flange on the path [m]", high="two_steps"),
-        NoOriginal("curves", "the curves"),
+        ends.TIP_STEP,
+        ends.NO_CURVES,
     ],
 )
 def slave_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the slave's flange while the hull of the master moves."""
     plans, halves = Slave.of(assumed).dual_readings(), PRINTED.slave_meeting
-    tips = {n: end_effector(p.slave.problem.placed, p.slave_path) for n, p in plans.items()}
-    face, tip = plans[FACE_VALUE].slave, tips[FACE_VALUE]
-    error = max(float(np.linalg.norm(tip[k] - face.tcp[k])) for k in (0, -1))
-    return Result(
-        obtained={
-            "end_error": error,
-            "largest_step": float(np.linalg.norm(np.diff(tip, axis=0), axis=1).max()),
-            "lowest": {name: float(rows[:, 2].min()) for name, rows in tips.items()},
-        },
-        table=pd.DataFrame(tip, columns=["x_m", "y_m", "z_m"]),
-        caption=(
-            f"Coordinates of the slave's flange; its lowest point is at z = {tip[:, 2].min():.3f} "
-            f"m at face value, while the printed halves meet at z = {halves[0, 2]:.3f} m (dashed, "
-            "dotted). The printed curves are lost."
-        ),
-        alt="Three panels with x, y and z of the slave's flange over its path for two readings.",
-        figure=lambda: coordinate_figure(
-            tips,
-            {"printed, forward": halves[0], "printed, backward": halves[1]},
-            "sample of the path",
-        ),
+    tips = {n: end_effector(p.slave.placed, p.slave_path) for n, p in plans.items()}
+    shifts = tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].slave.tcp[[0, -1]]
+    return ends.coordinates_of(
+        tips,
+        {"end_error": float(np.linalg.norm(shifts, axis=1).max())},
+        halves,
+        caption("fig16", height=halves[0, 2]),
+        "Three panels with x, y and z of the slave's flange over its path for two readings.",
     )
 
 
@@ -120,11 +89,7 @@ def both_arms_together(assumed: Assumed) -> Result:
             "smallest": {name: float(values.min()) for name, values in curves.items()},
             "floor": face.contact(scene).clearance["floor"],
         },
-        caption=(
-            "Smallest distance over the common motion: "
-            + "; ".join(f"{name} {1e3 * values.min():.0f} mm" for name, values in curves.items())
-            + ". Below zero the links overlap. A common time scale is not printed."
-        ),
+        caption=caption("fig17"),
         table=_motion(face, scene),
         alt="Both arms among the spheres at common times, with the paths of both flanges, in two "
         "panels for two readings.",
@@ -140,16 +105,14 @@ def both_arms_together(assumed: Assumed) -> Result:
 def _motion(plan: DualSearch, scene: Scene) -> pd.DataFrame:
     """Joints of both arms on common samples and the smallest distance between them there."""
     q = plan.stacked(scene)
-    columns = {
-        f"{name}_q{j}_deg": np.rad2deg(path[:, j - 1])
-        for name, path in zip(ARMS, plan.played(), strict=True)
-        for j in range(1, 7)
-    }
-    return pd.DataFrame(columns | {"arm_to_arm_m": _distance(scene, q, "master")})
+    made = pd.DataFrame(
+        np.rad2deg(np.hstack(plan.played())),
+        columns=[f"{name}_{joint}" for name in ARMS for joint in ends.JOINT_COLUMNS],
+    )
+    return made.assign(arm_to_arm_m=_distance(scene, q, "master"))
 
 
 def _distance(scene: Scene, q: np.ndarray, *others: str) -> np.ndarray:
-    """Smallest distance of the slave to these bodies at configurations (N, 12) of both arms (N,)
-    [m]."""
+    """Smallest distance of the slave to these bodies at q (N, 12) of both arms (N,) [m]."""
     mask = np.any([scene.pairs.between("slave", name) for name in others], axis=0)
     return distances(scene, q)[:, mask].min(axis=1)

@@ -10,16 +10,18 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
-from .....ledger.captions import point
+from .....ledger.assumptions import alternatives
+from .....ledger.captions import captions
 from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
 from .....view.diagrams import flow_chart
+from ... import ends
 from ...document import PRINTED
-from ...ends import count_rules, counted, meeting_rules, met, outcome
 from ...reading import Links, Slave
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
+caption = captions(__file__)
 _SHIFTS = (-6, -3, 3, 6)
 _STAGES = (
     ("master", "search from both ends", plan_bidirectional_compiled),
@@ -46,9 +48,9 @@ _STAGES = (
 def order_of_work(assumed: Assumed) -> Result:
     """The order of work that the code follows, tested by what depends on what."""
     reading = Slave.nominal()
-    branches = REGISTRY.declared("qiu.slave_branch", "choices").choices
+    branches = alternatives("qiu.slave_branch", 0)
     other_branch = next(branch for branch in branches if branch != reading.slave_branch)
-    other_radius = REGISTRY.declared("qiu.goal_radius", "range").range[0]
+    other_radius, _ = alternatives("qiu.goal_radius", 2)
     plan = reading.dual_plan()
     slave_changed = replace(reading, slave_branch=other_branch).dual_plan()
     master_changed = replace(reading, goal_radius=other_radius).dual_plan()
@@ -63,53 +65,31 @@ def order_of_work(assumed: Assumed) -> Result:
             "stages": [f"{part}: {text}" for part, text, _ in rows],
         },
         table=pd.DataFrame(rows, columns=["part", "step", "code"]),
-        caption=(
-            f"Order of work in {len(rows)} stages with the function behind each: the master among "
-            "the spheres, its hull at every pose, the slave around it, both executed by one time "
-            "map. The master's path depends on nothing of the slave; the slave's path changes with "
-            "the master's. The chart of the document is lost."
-        ),
+        caption=caption("fig08"),
         alt="Flow chart in three columns: plan the master, build its moving hull, plan the "
         "slave and execute both arms.",
         figure=lambda: flow_chart(rows),
     )
 
 
-def _outcomes(assumed: Assumed) -> list[dict[str, Any]]:
+def _outcomes(assumed: Assumed) -> tuple[dict[str, Any], dict[str, Any]]:
     """How the slave's search came out, at face value and in the reconstruction."""
-    plans = Slave.of(assumed).dual_readings().values()
-    return [outcome(plan.slave, PRINTED.slave_meeting) for plan in plans]
+    face, other = (plan.slave for plan in Slave.of(assumed).dual_readings().values())
+    printed = PRINTED.slave_meeting
+    return ends.outcome(face, printed), ends.outcome(other, printed)
 
 
-@checks("qiu.claim_slave_counts", rules=count_rules("the slave's halves meet"))
+@checks("qiu.claim_slave_counts", rules=ends.count_rules("the slave's halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
-    face, other = _outcomes(assumed)
     printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
-    return Result(
-        obtained=counted(face, other),
-        caption=(
-            f"The slave's halves need {face['searches']} searches each at face value "
-            f"({face['reason']}) and {other['searches']} in the reconstruction "
-            f"({other['reason']}); {printed} are printed."
-        ),
-    )
+    return Result(ends.counted(*_outcomes(assumed)), caption("claim_slave_counts", printed=printed))
 
 
-@checks("qiu.claim_slave_meet", rules=meeting_rules("the slave's halves meet"))
+@checks("qiu.claim_slave_meet", rules=ends.meeting_rules("the slave's halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the slave's halves end, against print."""
-    face, other = _outcomes(assumed)
-    made = met(face, other, PRINTED.slave_meeting)
-    return Result(
-        obtained=made,
-        caption=(
-            f"The slave's halves end at ({point(np.array(face['ends'][0]), 3)}) m, "
-            f"{1e3 * max(face['distance_to_print']):.0f} mm from print, and in the reconstruction "
-            f"{1e3 * max(other['distance_to_print']):.0f} mm from print. Gap of the tips "
-            f"{1e3 * face['gap_tip']:.1f} mm, printed {1e3 * made['printed_gap_tip']:.1f} mm."
-        ),
-    )
+    return Result(ends.met(*_outcomes(assumed), PRINTED.slave_meeting), caption("claim_slave_meet"))
 
 
 @checks(
@@ -139,13 +119,7 @@ def schedule(assumed: Assumed) -> Result:
             "wait_samples": len(plan.played()[0]) - len(share),
         },
         table=pd.DataFrame({"sample": range(len(share)), "share_of_master_path": share}),
-        caption=(
-            f"The master's poses are spread over {min(spread, searches)} searches from both ends "
-            f"and its middle pose is held for the remaining {held} of {searches}"
-            + (f", in which the step is {ratio:.2f} of the one before. " if held else ". ")
-            + f"The map from the slave's {len(share)} samples to the master's path "
-            "is an output of the plan."
-        ),
+        caption=caption("claim_master_timeline", searches=searches, samples=len(share)),
     )
 
 
@@ -162,24 +136,16 @@ def no_collision(assumed: Assumed) -> Result:
     reading = Slave.of(assumed)
     plan, scene = reading.dual_plan(), reading.scene(Links.of(assumed).radii)
     found = plan.contact(scene)
-    shifted = {k: plan.contact(scene, shift=k).clearance["arms"] for k in _SHIFTS}
-    uniform = plan.contact(scene, "uniform").clearance["arms"]
+    shifted = {str(k): plan.contact(scene, shift=k).clearance["arms"] for k in _SHIFTS}
     return Result(
         obtained={
             "joined": plan.reached,
             "arms": found.clearance["arms"],
             "obstacles": found.clearance["obstacles"],
             "clearance": {**found.clearance, "beyond_limits": found.beyond_limits},
-            "out_of_step": {str(k): v for k, v in shifted.items()},
-            "uniform_speed": uniform,
+            "out_of_step": shifted,
+            "uniform_speed": plan.contact(scene, "uniform").clearance["arms"],
             "control_points": plan.slave.control_clearance,
         },
-        caption=(
-            f"The planner sees {1e3 * plan.slave.control_clearance:.0f} mm at its control points, "
-            f"while the links of the arms come to {1e3 * found.clearance['arms']:.0f} mm of each "
-            f"other and to {1e3 * found.clearance['obstacles']:.0f} mm of the spheres (below zero "
-            f"they overlap). Played up to {_SHIFTS[-1]} samples out of step the arms keep "
-            f"{1e3 * min(shifted.values()):.0f} mm at worst, at uniform "
-            f"speed {1e3 * uniform:.0f} mm."
-        ),
+        caption=caption("claim_no_collision", most=_SHIFTS[-1]),
     )

@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Residual, Result
+from .....ledger.assumptions import alternatives
+from .....ledger.captions import captions
 from .....ledger.witnesses import cell_witnesses
 from .....planning.checks.recorded_steps import step_difference
 from .....planning.search.splice import roughness, smoothed, smoothed_directly
@@ -16,6 +18,7 @@ from ...reading import Improved, Traditional
 from ...studies.improvements import IMPROVEMENTS, STEP_RULES, nearest
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
+caption = captions(__file__)
 _MU = (0.0, 0.1, 1.0, 10.0, 100.0)
 _END_WEIGHTS = (1.0, 1e3, 1e6)
 
@@ -39,50 +42,32 @@ def next_configuration(assumed: Assumed) -> Result:
     end = plan.gap - tolerance
     return Result(
         obtained={"step_error": error, "end": end, "searches": plan.searches},
-        caption=(
-            f"Every step has the length alpha to {error:.0e} rad and the run ends {plan.gap:.3f} "
-            f"rad from its goal, {'within' if end <= 0.0 else 'outside'} the tolerance. The "
-            "printed formula is lost."
-        ),
+        caption=caption("eq11", gap=plan.gap),
     )
 
 
-@checks(
-    "qiu.eq13",
-    rules=[
-        Residual("difference", "steps of the forward half against the formula [rad]", high=1e-9),
-        NoOriginal("formula", "the formula"),
-    ],
-)
-def forward_update(assumed: Assumed) -> Result:
-    """Every forward step, recomputed with the backward end as its goal."""
-    return _update_result(0, "forward", "backward")
+def _register_update(item: str, side: int, half: str, other: str) -> None:
+    """The check of the steps of one half."""
 
-
-@checks(
-    "qiu.eq14",
-    rules=[
-        Residual("difference", "steps of the backward half against the formula [rad]", high=1e-9),
-        NoOriginal("formula", "the formula"),
-    ],
-)
-def backward_update(assumed: Assumed) -> Result:
-    """Every backward step, recomputed with the forward end as its goal."""
-    return _update_result(1, "backward", "forward")
-
-
-def _update_result(side: int, half: str, other: str) -> Result:
-    """Steps of one half, in both orders of the update."""
-    plans = [Improved.nominal(update_order=order).plan() for order in ("before", "after")]
-    difference = max(step_difference(plan, side) for plan in plans)
-    return Result(
-        obtained={"difference": difference},
-        caption=(
-            f"Every step of the {half} half points along the resultant towards the {other} end, to "
-            f"{difference:.0e} rad, in either order of the updates. The printed formula is lost "
-            "with the sentence that opens step 3."
-        ),
+    @checks(
+        f"qiu.{item}",
+        rules=[
+            Residual(
+                "difference", f"steps of the {half} half against the formula [rad]", high=1e-9
+            ),
+            NoOriginal("formula", "the formula"),
+        ],
     )
+    def update(assumed: Assumed) -> Result:
+        """Every step of the half in both orders, recomputed with the other end as its goal."""
+        plans = [Improved.nominal(update_order=order).plan() for order in ("before", "after")]
+        difference = max(step_difference(plan, side) for plan in plans)
+        told = caption("update", half=half, other=other)
+        return Result(obtained={"difference": difference}, caption=told)
+
+
+_register_update("eq13", 0, "forward", "backward")
+_register_update("eq14", 1, "backward", "forward")
 
 
 @checks(
@@ -112,21 +97,15 @@ def meeting_test(assumed: Assumed) -> Result:
         float(np.linalg.norm(np.subtract(*ends)))
         for ends in (PRINTED.meeting, PRINTED.slave_meeting)
     ]
-    tips = float(np.linalg.norm(plan.ends[0] - plan.ends[1]))
     return Result(
         obtained={
             "beyond": float(gaps[-1] - tolerance),
             "earlier": float(gaps[:-1].min() - tolerance),
             "room": lever * tolerance - max(printed),
-            "gap_tip": tips,
+            "gap_tip": float(np.linalg.norm(plan.ends[0] - plan.ends[1])),
             "printed_gaps": printed,
         },
-        caption=(
-            f"The joint distance of the halves falls from {gaps[0]:.2f} rad to {gaps[-1]:.3f} rad; "
-            f"the tips are then {1e3 * tips:.1f} mm apart, in print {1e3 * printed[0]:.1f} mm for "
-            f"the master and {1e3 * printed[1]:.1f} mm for the slave. A tolerance of {tolerance:g} "
-            f"rad allows up to {1e3 * lever * tolerance:.0f} mm; it is not printed."
-        ),
+        caption=caption("eq15", gaps=gaps[[0, -1]], tolerance=tolerance, allowed=lever * tolerance),
     )
 
 
@@ -148,11 +127,7 @@ def smoothing_criterion(assumed: Assumed) -> Result:
     difference = max(float(np.abs(one - other).max()) for one, other in pairs)
     return Result(
         obtained={"difference": difference, "cases": len(pairs)},
-        caption=(
-            f"For mu from {_MU[1]:g} to {_MU[-1]:g} and end weights from {_END_WEIGHTS[0]:g} to "
-            f"{_END_WEIGHTS[-1]:g} the smoothing spline of the library and the solution of the "
-            f"normal equations agree to {difference:.0e} rad. The printed formula is lost."
-        ),
+        caption=caption("eq16", mu=_MU, weights=_END_WEIGHTS),
     )
 
 
@@ -168,21 +143,16 @@ def smoothing_sense(assumed: Assumed) -> Result:
     path = Improved.nominal().plan().path
     values = [roughness(smoothed_directly(path, mu, 1.0)) for mu in _MU]
     sign, bound = REGISTRY.printed("qiu.claim_mu_nonneg")["mu"].split()
-    lowest, highest = REGISTRY.declared("qiu.smoothing_weight", "range").range
+    declared = alternatives("qiu.smoothing_weight", 2)
     compare = {">=": np.greater_equal, ">": np.greater, "<=": np.less_equal, "<": np.less}[sign]
-    within = bool(compare([lowest, highest], float(bound)).all())
     return Result(
         obtained={
             "falling": bool((np.diff(values) < 0).all()),
-            "within_print": within,
+            "within_print": bool(compare(declared, float(bound)).all()),
             "roughness": values,
         },
         table=pd.DataFrame({"mu": _MU, "roughness_rad2": values}),
-        caption=(
-            f"The roughness of the path goes from {values[0]:.2e} at mu = 0 to {values[-1]:.2e} at "
-            f"mu = {_MU[-1]:g}; the values declared for it, {lowest:g} to {highest:g}, are "
-            f"{'' if within else 'not '}{sign} {bound}."
-        ),
+        caption=caption("claim_mu_nonneg", mu=_MU, declared=declared, sign=sign, bound=bound),
     )
 
 
@@ -204,26 +174,19 @@ def adaptive_efficiency(assumed: Assumed) -> Result:
     table = table[table["gain_ratio"] == ratio]
     both = table[table[f"reached_{rule}"] & table["reached_constant"]]
     faster = both[f"searches_{rule}"] < both["searches_constant"]
-    medians = {name: float(both[f"searches_{name}"].median()) for name in ("constant", rule)}
-    reached = {name: int(table[f"reached_{name}"].sum()) for name in STEP_RULES}
-    cost = both[f"searches_{rule}"] / both["searches_constant"]
     obtained = {
         "faster": {"count": int(faster.sum()), "of": len(both)},
-        "median_searches": medians,
-        "median_ratio": float(cost.median()),
-        "solved": reached,
+        "median_searches": {
+            name: float(both[f"searches_{name}"].median()) for name in ("constant", rule)
+        },
+        "median_ratio": float((both[f"searches_{rule}"] / both["searches_constant"]).median()),
+        "solved": {name: int(table[f"reached_{name}"].sum()) for name in STEP_RULES},
         "tasks": len(table),
         "ratio": ratio,
     }
     return Result(
         obtained=obtained,
-        caption=(
-            f"At eta_0/zeta = {ratio:g} both steps solve {len(both)} of {len(table)} random tasks; "
-            f"the adaptive one ({rule}) needs fewer searches in {int(faster.sum())} of them, in "
-            f"the median {cost.median():.2f} times as many as the constant one. Tasks solved: "
-            + ", ".join(f"{count} ({name})" for name, count in reached.items())
-            + "."
-        ),
+        caption=caption("claim_steps_efficiency", rule=rule),
         witnesses=cell_witnesses(
             "qiu.claim_steps_efficiency",
             obtained,

@@ -14,7 +14,7 @@ from .....arms.exact_chain import chain_product, same_function
 from .....arms.joint_axes import axis_spread, common_origins, joint_frames
 from .....arms.reach import symmetric_bases
 from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Result
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....view.arm_drawings import frames_figure, stick_figure
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
@@ -24,6 +24,7 @@ from ...reading import nominal
 from . import printed_chain as chain
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
+caption = captions(__file__)
 
 
 @checks(
@@ -41,25 +42,17 @@ def dimensions(assumed: Assumed) -> Result:
     """Side view of the published robot, with the lengths the matrices share with it."""
     printed, published = chain.printed_lengths(), lengths("published")
     differences = {name: published[name] - printed[name] for name in printed}
-    shared = ", ".join(chain.SHARED)
-    table = pd.DataFrame({"matrices_m": printed, "published_m": published}).rename_axis("length")
+    table = pd.DataFrame({"matrices_m": printed, "published_m": published})
     return Result(
         obtained={
             "published": published,
             "matrices": printed,
             "shared_difference": max(abs(differences[name]) for name in chain.SHARED),
         },
-        table=table.reset_index(),
-        caption=(
-            "Published ES165D in the maker's upright posture. The matrices share "
-            f"{shared} with it; their upper arm a2 is {1000 * differences['a2']:.0f} mm "
-            f"shorter and the base height of {1000 * differences['d1']:.0f} mm is left out. The "
-            "text edition carries no number of the drawing, so there is nothing to compare it with."
-        ),
-        alt=(
-            "Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
-            "to the flange, with six dimension lines in millimetres."
-        ),
+        table=table.reset_index(names="length"),
+        caption=caption("fig01", shared=chain.SHARED, less=differences),
+        alt="Side view of a six-joint arm as a line from the floor over shoulder, elbow and wrist "
+        "to the flange, with six dimension lines in millimetres.",
         figure=lambda: upright_drawing(published),
     )
 
@@ -84,7 +77,6 @@ def link_frames(assumed: Assumed) -> Result:
     columns = [f"{axis}{row}" for row in "xyz" for axis in ("n", "o", "a", "p")]
     table = pd.DataFrame(frames[:, :3].reshape(7, 12), columns=columns)
     table.insert(0, "frame", range(7))
-    shared = "; ".join(" and ".join(map(str, group)) for group in common_origins(frames))
     return Result(
         obtained={
             "origins": frames[:, :3, 3].tolist(),
@@ -92,11 +84,7 @@ def link_frames(assumed: Assumed) -> Result:
             "frame_error": float(abs(frames - _printed_frames(master_start())).max()),
         },
         table=table,
-        caption=(
-            "Frames 0 to 6 of matrices (2)-(7) at q = 0: the upper arm is level and the forearm "
-            f"hangs down, frame 6 at ({point(frames[6, :3, 3], 3)}) m. Frames with a common "
-            f"origin: {shared}. The drawing is not in the text edition."
-        ),
+        caption=caption("fig02", shared=common_origins(frames)),
         alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
         figure=lambda: frames_figure(frames, 0.25),
     )
@@ -112,8 +100,7 @@ def link_frames(assumed: Assumed) -> Result:
 )
 def both_arms(assumed: Assumed) -> Result:
     """Master and mirrored slave in one posture, their bases apart along y."""
-    distance = assumed["base_distance"]
-    posture = assumed["display_posture"]
+    distance, posture = assumed["base_distance"], assumed["display_posture"]
     q = {"start": master_start(), "goal": master_goal()}[posture]
     master, slave = load_arm("es165d"), load_arm("es165d-slave")
     left, right = symmetric_bases(distance)
@@ -123,21 +110,14 @@ def both_arms(assumed: Assumed) -> Result:
     error = float(abs(tips["master"] * flip - tips["slave"]).max())
 
     def scene() -> Scene3D:
-        made = Scene3D(
-            f"Both arms of the document at the printed {posture}.", camera=(6.0, -3.0, 2.5)
-        )
+        made = Scene3D(f"Both arms of the document at the printed {posture}.", (6.0, -3.0, 2.5))
         made.add_arm("master", master, q, left, MASTER)
         made.add_arm("slave", slave, -q, right, SLAVE)
         return made
 
     return Result(
         obtained={"flanges": {k: v.tolist() for k, v in tips.items()}, "mirror_error": error},
-        caption=(
-            f"Master and mirrored slave at the printed {posture}, bases {distance:g} m apart "
-            f"(assumed); flanges at ({point(tips['master'], 3)}) and ({point(tips['slave'], 3)}) "
-            "m. Neither the base poses nor the posture shown are printed, so the figure cannot be "
-            "compared."
-        ),
+        caption=caption("fig03", posture=posture, distance=distance),
         alt="Stick figures of two six-joint arms, mirror images of each other, side by side.",
         figure=lambda: stick_figure(arms, elev=18, azim=-35),
         scene=scene,
@@ -158,21 +138,13 @@ def spherical_wrist(assumed: Assumed) -> Result:
     ]
     wrist, same, sixth = (frame[:3, 3] for frame in frames)
     # Axis 6 is the z axis of frame 6, whose origin lies d_6 further out along it.
-    reach = chain.link_matrix(6)[1, 3]
-    back = sixth - reach * frames[2][:3, 2]
-    meets = same_function(sp.Matrix(wrist), sp.Matrix(same)) and same_function(
-        sp.Matrix(wrist), sp.Matrix(back)
-    )
+    back = sixth - chain.link_matrix(6)[1, 3] * frames[2][:3, 2]
+    meets = all(same_function(sp.Matrix(wrist), sp.Matrix(other)) for other in (same, back))
     arm = load_arm("es165d")
     poses = arm.random_configurations(1000, np.random.default_rng(SEED))
-    spread = axis_spread(arm, (4, 5, 6), 5, poses)
     return Result(
-        obtained={"origins_coincide": meets, "spread": spread},
-        caption=(
-            "The last three joint axes meet in one point for every configuration, proved in "
-            f"symbols; in Pinocchio they miss a common point by at most {spread:.1e} m on 1000 "
-            "random poses."
-        ),
+        obtained={"origins_coincide": meets, "spread": axis_spread(arm, (4, 5, 6), 5, poses)},
+        caption=caption("claim_spherical_wrist"),
     )
 
 
@@ -197,11 +169,7 @@ def mirror(assumed: Assumed) -> Result:
     goal = slave.fk(-master_goal())[:3, 3]
     return Result(
         obtained={"symbolic": symbolic, "pinocchio": difference, "slave_goal": goal.tolist()},
-        caption=(
-            "Negating alpha and theta is exactly the reflection in the xz plane of the base, link "
-            f"by link in symbols and to {difference:.1e} between the two models. At the mirrored "
-            f"goal the slave's flange is at ({point(goal)}) m."
-        ),
+        caption=caption("claim_mirror"),
     )
 
 
@@ -210,15 +178,10 @@ def start_of_master(assumed: Assumed) -> Result:
     """Start of the master, and how far it is outside the range of the real axis L."""
     arm = load_arm("es165d")
     start = placed_master(nominal().layout).start
-    excess = float(np.rad2deg(start[1] - arm.upper[1]))
-    tcp = arm.fk(start)[:3, 3]
+    tcp, excess = arm.fk(start)[:3, 3], float(np.rad2deg(start[1] - arm.upper[1]))
     return Result(
         obtained={"q": start.tolist(), "tcp": tcp.tolist(), "excess_deg": excess},
-        caption=(
-            f"The start is used as printed; its flange is at ({point(tcp)}) m. Axis L of the real "
-            f"robot would be {abs(excess):.1f} deg {'beyond' if excess > 0 else 'inside'} its "
-            "range."
-        ),
+        caption=caption("claim_master_start"),
     )
 
 
@@ -226,14 +189,10 @@ def start_of_master(assumed: Assumed) -> Result:
 def goal_of_master(assumed: Assumed) -> Result:
     """Goal of the master; unlike the start it tells Table 1 from the matrices."""
     arm, goal = load_arm("es165d"), placed_master(nominal().layout).goal
-    tcp = arm.fk(goal)[:3, 3]
-    inside = arm.within_limits(goal)
+    tcp, inside = arm.fk(goal)[:3, 3], arm.within_limits(goal)
     return Result(
         obtained={"q": goal.tolist(), "tcp": tcp.tolist(), "within_limits": inside},
-        caption=(
-            f"The goal is used as printed; its flange is at ({point(tcp)}) m, "
-            f"{'inside' if inside else 'outside'} the joint ranges of the real robot."
-        ),
+        caption=caption("claim_master_goal"),
     )
 
 

@@ -13,25 +13,26 @@ from .....arms.exact_chain import chain_product, craig_transform, evaluated, sam
 from .....arms.joint_axes import joint_placements
 from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role, Rounds
-from .....ledger.captions import point
+from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....tracking import memo
 from ...document import READINGS, SEED, master_goal, master_start, reach
 from . import printed_chain as chain
 
 checks = partial(REGISTRY.checks, page="xue/kinematics")
+caption = captions(__file__)
 #: Configurations at which (8) is multiplied out as printed.
 _FORMULA = 100
 #: A printed "0" would else stand for anything below one half.
-_EXACT = {"tolerance": 1e-12, "reason": "parameters of one chain, exact"}
+_Column = partial(Rounds, tolerance=1e-12, reason="parameters of one chain, exact")
 
 
 @checks(
     "xue.tab01",
     rules=[
-        Rounds(key="d", to="d", label="column d is that of matrices (2)-(7)", **_EXACT),
-        Rounds(key="alpha", to="alpha", label="column alpha is that of the matrices", **_EXACT),
-        Rounds(key="a_one_row_up", to="a", label="column a is theirs, one row too high", **_EXACT),
+        _Column("d", "column d is that of matrices (2)-(7)", to="d"),
+        _Column("alpha", "column alpha is that of the matrices", to="alpha"),
+        _Column("a_one_row_up", "column a is theirs, one row too high", to="a"),
         Is(
             "shift_explains",
             "column a under its own header is not that of the matrices, one row down it is",
@@ -50,12 +51,7 @@ def table_1(assumed: Assumed) -> Result:
     """Table 1 against the parameters recovered from the matrices, and the two goal poses."""
     parameters, column = chain.printed_parameters(), chain.table_parameters()["a"]
     shifted = [*parameters["a"][1:], 0.0]
-    goal = master_goal()[np.newaxis]
-    goals = {
-        "matrices": symbolic_poses(goal)[0, :3, 3],
-        "table": chain.table_pose(master_goal())[:3, 3],
-    }
-    distance = float(np.linalg.norm(goals["matrices"] - goals["table"]))
+    matrices, by_table = goals = flanges(master_goal())
     table = pd.DataFrame(
         {
             "link": list(chain.LINKS),
@@ -70,19 +66,13 @@ def table_1(assumed: Assumed) -> Result:
             **parameters,
             "a_one_row_up": shifted,
             "shift_explains": column == shifted and column != parameters["a"],
-            "goal_matrices": goals["matrices"].tolist(),
-            "goal_table": goals["table"].tolist(),
-            "goal_distance": distance,
+            "goal_matrices": matrices.tolist(),
+            "goal_table": by_table.tolist(),
+            "goal_distance": float(np.linalg.norm(np.subtract(*goals))),
             "reach": {reading: reach(reading) for reading in READINGS},
         },
         table=table,
-        caption=(
-            "Columns d and alpha of Table 1 agree with matrices (2)-(7); column a stands one row "
-            f"too high under its own header. At the master's goal the two readings put the flange "
-            f"{distance:.4f} m apart, so the document contradicts itself. Reach from the base: "
-            f"{reach('matrices'):.3f} m by the matrices, {reach('table'):.3f} m by the table, "
-            f"{reach('published'):.3f} m for the published robot, base height included."
-        ),
+        caption=caption("tab01"),
     )
 
 
@@ -105,27 +95,18 @@ def table_1(assumed: Assumed) -> Result:
 )
 def general_transform(assumed: Assumed) -> Result:
     """Equation (1) as printed and corrected, against the six matrices."""
-    counts = {
-        corrected: sum(
-            same_function(chain.substituted(k, corrected=corrected), chain.link_matrix(k))
-            for k in chain.LINKS
-        )
-        for corrected in (False, True)
-    }
+    literal, corrected = (len(chain.matrices_given(corrected=c)) for c in (False, True))
     return Result(
         obtained={
             "is_product": same_function(
                 chain.general_matrix(corrected=True),
                 craig_transform(chain.ALPHA, chain.A, chain.THETA, chain.D),
             ),
-            "links_as_printed": counts[False],
-            "links_with_alpha": counts[True],
-            "only_with_alpha": counts[False] < counts[True] == len(chain.LINKS),
+            "links_as_printed": literal,
+            "links_with_alpha": corrected,
+            "only_with_alpha": literal < corrected == len(chain.LINKS),
         },
-        caption=(
-            f"As printed, (1) gives {counts[False]} of the six matrices (2)-(7); with the twist "
-            f"angle alpha in place of the length a inside sine and cosine it gives {counts[True]}."
-        ),
+        caption=caption("eq01"),
     )
 
 
@@ -142,17 +123,13 @@ def _register_link(k: int) -> None:
     )
     def link_transform(assumed: Assumed) -> Result:
         arm, printed = load_arm("es165d"), chain.link_matrix(k)
-        difference = _largest_difference_to_pinocchio(k)
         return Result(
             obtained={
                 "equals_eq_1": same_function(chain.substituted(k, corrected=True), printed),
                 "equals_dh": same_function(arm.link_transforms()[k - 1], printed),
-                "pinocchio": difference,
+                "pinocchio": _largest_difference_to_pinocchio(k),
             },
-            caption=(
-                f"Matrix ({k + 1}) equals the corrected (1) and the arm's own link transform in "
-                f"symbols, and Pinocchio's joint placement to {difference:.1e}."
-            ),
+            caption=caption("link_transform", number=k + 1),
         )
 
 
@@ -195,12 +172,7 @@ def end_effector_pose(assumed: Assumed) -> Result:
             "tcp_start": start.tolist(),
             "tcp_goal": goal.tolist(),
         },
-        caption=(
-            "The product that is printed, of the six printed matrices, agrees with Pinocchio "
-            f"and with the batch kernel on {len(q)} random configurations to "
-            f"{abs(symbolic - pinocchio).max():.1e}. The master's flange goes from "
-            f"({point(start)}) m to ({point(goal)}) m."
-        ),
+        caption=caption("eq08", count=len(q)),
     )
 
 
@@ -226,15 +198,20 @@ def symbolic_poses(q: np.ndarray) -> np.ndarray:
     return evaluated(symbolic_pose(), [chain.joint_variable(k) for k in chain.LINKS], q)
 
 
+def flanges(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Flange at angles (6,) by the matrices and by Table 1 under its own headers, (3,) each [m]."""
+    return symbolic_poses(q[np.newaxis])[0, :3, 3], chain.table_pose(q)[:3, 3]
+
+
 def printed_product(q: np.ndarray) -> np.ndarray:
     """Right side of (8) at configurations (N, 6), (N, 4, 4); NaN if it asks for other factors."""
-    links = [
-        sp.lambdify(chain.joint_variable(k), chain.link_matrix(k), "numpy") for k in chain.LINKS
-    ]
+    links = {
+        k: sp.lambdify(chain.joint_variable(k), chain.link_matrix(k), "numpy") for k in chain.LINKS
+    }
     formula = parse(REGISTRY.printed("xue.eq08")["formula"])
     found = []
     for row in q:
-        given = {f"T_{k - 1}{k}": links[k - 1](row[k - 1]) for k in chain.LINKS}
+        given = {f"T_{k - 1}{k}": link(row[k - 1]) for k, link in links.items()}
         try:
             found.append(np.broadcast_to(formula.value(1, given), (4, 4)))
         except (DataFileError, IndexError, ValueError):

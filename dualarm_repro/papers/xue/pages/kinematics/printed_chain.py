@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
-from .....arms.exact_chain import craig_parameters
+from .....arms.exact_chain import craig_parameters, same_function
 from .....ledger import REGISTRY
 from .....tracking import memo
 from ...document import LENGTHS, robot
@@ -57,6 +57,12 @@ def substituted(k: int, *, corrected: bool, mirrored: bool = False) -> sp.Matrix
         THETA: sign * joint_variable(k),
     }
     return general_matrix(corrected).subs(values)
+
+
+def matrices_given(*, corrected: bool) -> list[int]:
+    """Numbers of the matrices that (1) gives, as it stands or with the twist angle in it."""
+    equal = (same_function(substituted(k, corrected=corrected), link_matrix(k)) for k in LINKS)
+    return [k + 1 for k, same in zip(LINKS, equal, strict=True) if same]
 
 
 def printed_parameters() -> dict[str, list[float]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -11,19 +10,21 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
+from .....ledger.captions import captions
 from .....planning.descent.termination import StopReason
 from .....planning.plan import Plan
 from .....planning.trials.runs import attempt
 from .....planning.trials.turns import onsets, phases, stands_still
 from .....tracking import memo
 from .....view.transitions import transitions_figure
-from ...document import SEED, placed_slave
-from ...motions import master_plan, slave_obstacles
-from ...outcomes import starts
-from ...reading import BLOCK, Case, improved, nominal
+from ...document import SEED
+from ...motions import master_plan, slave_obstacles, slave_task
+from ...outcomes import VARIANTS, starts
+from ...reading import BLOCK, Case, nominal
 from ...studies.ablation import NAMED
 
 checks = partial(REGISTRY.checks, page="xue/planning")
+caption = captions(__file__)
 
 _STATES = {
     "begin": (0.0, 5.0),
@@ -63,23 +64,19 @@ _WIDTH, _RUNS = 0.6, 12
 )
 def flow_chart(assumed: Assumed) -> Result:
     """States and transitions of the planner, counted over runs from widely perturbed starts."""
-    given = nominal()
-    planner = replace(given.planner, virtual_switching=assumed["virtual_switching"])
-    case = given._replace(planner=planner)
-    layouts = (
-        case.layout,
-        replace(case.layout, **NAMED["yawed"]),
-        replace(case.layout, window_opening_width=0.4, window_opening_height=0.35),
-    )
-    runs = [run for layout in layouts for run in _runs(case._replace(layout=layout))]
+    windows = (*NAMED.values(), {"window_opening_width": 0.4, "window_opening_height": 0.35})
+    switching = assumed["virtual_switching"]
+    cases = [nominal(virtual_switching=switching, **window) for window in windows]
+    runs = [run for case in cases for run in _runs(case)]
     counts = Counter(pair for run in runs for pair in pairwise(_states_of(run)))
     plans = [plan for run in runs for plan in run]
     switched = [(plan, k) for plan in plans for k in onsets(plan)]
     arrived = [plan for plan in plans if plan.reached]
-    still = sum(stands_still(plan, k, BLOCK, planner.stuck_threshold) for plan, k in switched)
+    threshold = cases[0].planner.stuck_threshold
+    still = sum(stands_still(plan, k, BLOCK, threshold) for plan, k in switched)
     return Result(
         obtained={
-            "master_first": _master_first(case),
+            "master_first": _master_first(cases[0]),
             "only_when_still": still == len(switched),
             "arrives_without": not any(plan.active[-1] for plan in arrived),
             "runs": len(runs),
@@ -87,13 +84,7 @@ def flow_chart(assumed: Assumed) -> Result:
             "transitions": len(counts),
         },
         table=pd.DataFrame([{"from": a, "to": b, "taken": n} for (a, b), n in counts.items()]),
-        caption=(
-            f"The flow that {len(runs)} runs of the code took in three windows, each arrow with "
-            "how often: the master is planned first, its path becomes a moving obstacle, then the "
-            f"slave is planned. The virtual point was switched on {len(switched)} times, "
-            f"{still} of them where the arm stood still. The content of the printed chart is not "
-            "in the text edition, so it cannot be compared."
-        ),
+        caption=caption("fig07", still=still),
         alt="Flow chart: master, then slave, each with a side branch to the virtual point.",
         figure=lambda: transitions_figure(_shown(counts), counts),
     )
@@ -102,7 +93,7 @@ def flow_chart(assumed: Assumed) -> Result:
 def _master_first(case: Case) -> bool:
     """Whether the moving obstacles of the slave follow the finished path of the master."""
     obstacles, plan = slave_obstacles(case), master_plan(case.layout, case.planner)
-    if obstacles is None:
+    if obstacles is None or plan is None:
         return False
     last = obstacles.cores[:, -1, 0]
     follows = np.abs(last[:, np.newaxis] - plan.tcp).max(axis=2).min(axis=1)
@@ -112,14 +103,13 @@ def _master_first(case: Case) -> bool:
 @memo(64)
 def _runs(case: Case) -> tuple[tuple[Plan, ...], ...]:
     """Whole runs from widely perturbed starts: the plan of the master, then that of the slave."""
-    slave, plan = placed_slave(case.layout), master_plan(case.layout, case.planner)
-    obstacles = slave_obstacles(case)
-    if plan is None or obstacles is None:
+    plan = master_plan(case.layout, case.planner)
+    if plan is None or slave_obstacles(case) is None:
         return ()
-    settings = improved(case.planner, case.layout.window_centre, slave.goal)
+    (slave, obstacles), settings = slave_task(case), VARIANTS["improved"].settings(case)
     begin = starts(case, _WIDTH, _RUNS, np.random.default_rng(SEED))
-    made = (attempt(slave, start, obstacles, settings) for start in begin)
-    return tuple((plan, found) if found is not None else (plan,) for found in made)
+    found = (attempt(slave, start, obstacles, settings) for start in begin)
+    return tuple((plan, own) if own is not None else (plan,) for own in found)
 
 
 def _states_of(run: tuple[Plan, ...]) -> list[str]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
+from .....ledger.captions import captions
 from .....planning.plan import Plan
 from .....planning.trials.replay import Replay
 from .....view import replays
@@ -19,6 +19,7 @@ from ...motions import (
     master_plan,
     master_undisturbed,
     points_to_window,
+    present,
     replay_of,
     slave_plan,
     slave_undisturbed,
@@ -27,6 +28,7 @@ from ...reading import Case, PlannerChoice
 from ..scene import stage
 
 checks = partial(REGISTRY.checks, page="xue/planning", samples=32)
+caption = captions(__file__)
 
 _NOTHING = "In this arrangement there are not two motions to compare."
 _NO_START = "The printed start of the master would touch a bar."
@@ -60,25 +62,22 @@ _AVOIDING_RULES = (
 @checks("xue.fig08", rules=_MASTER_RULES)
 def master_past_window(assumed: Assumed) -> Result:
     """The master by the improved method, and undisturbed."""
-    layout, planner = Layout.of(assumed), PlannerChoice.of(assumed)
-    plan = master_plan(layout, planner)
-    found = _master_numbers(layout, planner, plan)
-    if plan is None:
+    motions, found = _past_window(assumed)
+    if motions is None:
         return Result(found, _NO_START)
+    layout, (plan, alone) = Layout.of(assumed), motions
+    tracks = [
+        Track("attraction alone", alone.tcp, "0.5", ":"),
+        Track("improved method", plan.tcp, MASTER),
+    ]
+    ends = {"start": plan.tcp[0], "goal": plan.tcp[-1]}
     return Result(
         obtained=found,
         table=plan.to_frame().reset_index(),
-        caption=(
-            f"The master arrives after {plan.steps} steps. Its nearest control point keeps "
-            f"{found['distance']:.3f} m from the bars; without repulsion it would come to "
-            f"{found['distance_undisturbed']:.3f} m, so the potential "
-            + ("does the avoiding." if found["needed"] else "has nothing to avoid here.")
-        ),
-        alt=(
-            "Track of the master's end effector in space past a window frame of four bars, bent "
-            "away from the dashed track it would take without repulsion."
-        ),
-        figure=lambda: _master_figure(layout, planner, plan),
+        caption=caption("fig08"),
+        alt="Track of the master's end effector in space past a window frame of four bars, bent "
+        "away from the dashed track it would take without repulsion.",
+        figure=lambda: tracks_figure(layout.window(), tracks, ends, elev=18, azim=-40),
         scene=lambda: replays.add_plan(
             stage("The master moves past the window; its track is blue.", layout), plan
         ),
@@ -88,24 +87,15 @@ def master_past_window(assumed: Assumed) -> Result:
 @checks("xue.claim_master_ok", rules=_MASTER_RULES)
 def master_avoids(assumed: Assumed) -> Result:
     """Distance of every control point of the master to every bar."""
-    layout, planner = Layout.of(assumed), PlannerChoice.of(assumed)
-    plan = master_plan(layout, planner)
-    found = _master_numbers(layout, planner, plan)
-    if plan is None:
+    motions, found = _past_window(assumed)
+    if motions is None:
         return Result(found, _NO_START)
-    undisturbed = master_undisturbed(layout, planner)
-    curves = {
-        "improved method": points_to_window(plan, layout, planner.control_points),
-        "attraction alone": points_to_window(undisturbed, layout, planner.control_points),
-    }
+    layout, points = Layout.of(assumed), assumed["control_points"]
+    distances = (points_to_window(motion, layout, points) for motion in motions)
+    curves = dict(zip(("improved method", "attraction alone"), distances, strict=True))
     return Result(
         obtained=found,
-        caption=(
-            f"All control points of the master stay {found['distance']:.3f} m or more from the "
-            f"bars, {found['distance_undisturbed']:.3f} m without repulsion. The virtual point "
-            f"acted {plan.activations} times. Of the real robot's joint limits the start and "
-            f"{found['beyond_limits']:.0%} of the path are outside."
-        ),
+        caption=caption("claim_master_ok"),
         alt="Distance of the master to the window over the steps, with and without repulsion.",
         figure=lambda: distances_figure(curves, {"range d_0": gains()["d_0"]}),
     )
@@ -123,21 +113,9 @@ def slave_collides(assumed: Assumed) -> Result:
     title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
         obtained=found,
-        caption=(
-            "Attracted only, the slave's end effector "
-            + _in_bar(found["flange_window"])
-            + f" and comes within {found['flanges_apart']:.3f} m of the master's at step "
-            f"{found['nearest_step']} of {found['steps']}, "
-            + (
-                "on its arrival at End."
-                if found["nearest_step"] == found["steps"]
-                else "both moving at the same time."
-            )
-        ),
-        alt=(
-            "Tracks of both end effectors in space; the slave's solid track runs through a bar of "
-            "the window and crosses the master's dashed track, with circles at both places."
-        ),
+        caption=caption("fig09"),
+        alt="Tracks of both end effectors in space; the slave's solid track runs through a bar of "
+        "the window and crosses the master's dashed track, with circles at both places.",
         figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **_VIEW),
         scene=lambda: replays.add_contacts(
             replays.add_replay(stage(title, layout), replay), replay
@@ -154,13 +132,7 @@ def slave_collides_without(assumed: Assumed) -> Result:
     steps = np.flatnonzero(replay.to_obstacles() <= 0.0).tolist()
     return Result(
         obtained={**found, "steps_inside_bar": steps},
-        caption=(
-            "Without avoidance the end effector "
-            + _in_bar(found["flange_window"])
-            + (f" (steps {steps[0]} to {steps[-1]})" if steps else "")
-            + "; its smallest distance to the master's on the way is "
-            f"{found['flanges_apart']:.3f} m."
-        ),
+        caption=caption("claim_slave_collides_without"),
     )
 
 
@@ -168,7 +140,7 @@ def slave_collides_without(assumed: Assumed) -> Result:
 def avoiding_from_above(assumed: Assumed) -> Result:
     """Both avoiding tracks seen along the vertical."""
     alt = "Plan view of a window, of the master's track and of the slave's track around its bars."
-    return _avoiding_tracks(assumed, "Seen from above:", alt, top_view_figure)
+    return _avoiding_tracks(assumed, "fig10", alt, top_view_figure)
 
 
 @checks("xue.fig11", rules=_AVOIDING_RULES)
@@ -178,19 +150,14 @@ def avoiding_in_space(assumed: Assumed) -> Result:
         "Tracks of both end effectors in space: the slave's runs from Start through the "
         "opening of the window to End, clear of the bars and of the master's track."
     )
-    result = _avoiding_tracks(assumed, "With the improved method", alt, tracks_figure, **_VIEW)
-    if result.figure is None:
-        return result
-    replay, _ = _avoiding(assumed)
     title = "The slave passes the window while the master moves; nothing is touched."
-    return replace(
-        result, scene=lambda: replays.add_replay(stage(title, Layout.of(assumed)), replay)
-    )
+    return _avoiding_tracks(assumed, "fig11", alt, tracks_figure, title, **_VIEW)
 
 
 def _avoiding_tracks(
-    assumed: Assumed, begin: str, alt: str, view: replays.TracksView, **how: Any
+    assumed: Assumed, block: str, alt: str, view: replays.TracksView, title: str = "", **how: Any
 ) -> Result:
+    """Both tracks seen in some way, and in a 3-D scene if that has a title."""
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
@@ -198,9 +165,10 @@ def _avoiding_tracks(
     return Result(
         obtained=found,
         table=replay.to_frame(),
-        caption=f"{begin} {_arrival(found)}",
+        caption=caption(block),
         alt=alt,
         figure=lambda: _tracks_figure(view, layout, replay, **how),
+        scene=(lambda: replays.add_replay(stage(title, layout), replay)) if title else None,
     )
 
 
@@ -217,7 +185,7 @@ def slave_avoids(assumed: Assumed) -> Result:
     if replay is None:
         return Result({**found, "points": None}, _NOTHING)
     found["points"] = float(replay.plan.clearance.min())
-    undisturbed, _ = _colliding(assumed)
+    undisturbed = present(_colliding(assumed)[0], "motion of the slave")
     curves = {
         "window, improved": replay.until_rest(replay.to_obstacles()),
         "master, improved": replay.apart(),
@@ -226,14 +194,9 @@ def slave_avoids(assumed: Assumed) -> Result:
     }
     return Result(
         obtained=found,
-        caption=(
-            f"At the end effector, {_arrival(found)} No control point comes closer than "
-            f"{found['points']:.3f} m to window or master. What whole links do is another question."
-        ),
-        alt=(
-            "Distances of the slave's end effector to window and master over the steps, two "
-            "methods."
-        ),
+        caption=caption("claim_slave_ok"),
+        alt="Distances of the slave's end effector to window and master over the steps, two "
+        "methods.",
         figure=lambda: distances_figure(
             curves, {"contact": 0.0, "meeting": assumed["meeting_distance"]}
         ),
@@ -254,13 +217,16 @@ def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
     return replay, _meeting_numbers(replay, meeting, moving=False)
 
 
-def _master_numbers(layout: Layout, planner: PlannerChoice, plan: Plan | None) -> dict[str, Any]:
+def _past_window(assumed: Assumed) -> tuple[tuple[Plan, Plan] | None, dict[str, Any]]:
+    """The master by the improved method and by attraction alone, and how near they come."""
+    layout, planner = Layout.of(assumed), PlannerChoice.of(assumed)
+    plan = master_plan(layout, planner)
     if plan is None:
-        return {"reached": False, "distance": None, "needed": False}
+        return None, {"reached": False, "distance": None, "needed": False}
     alone, points = master_undisturbed(layout, planner), planner.control_points
     undisturbed = points_to_window(alone, layout, points).min()
     inside = plan.placed.arm.within_limits(plan.path, 1e-9)
-    return {
+    found: dict[str, Any] = {
         "reached": plan.reached,
         "steps": plan.steps,
         "distance": float(points_to_window(plan, layout, points).min()),
@@ -269,6 +235,7 @@ def _master_numbers(layout: Layout, planner: PlannerChoice, plan: Plan | None) -
         "activations": plan.activations,
         "beyond_limits": float(1.0 - np.mean(inside)),
     }
+    return (plan, alone), found
 
 
 def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> dict[str, Any]:
@@ -291,22 +258,6 @@ def _meeting_numbers(replay: Replay | None, meeting: float, *, moving: bool) -> 
     }
 
 
-def _in_bar(window: float) -> str:
-    if window <= 0.0:
-        return f"passes {100 * -window:.1f} cm deep through a bar"
-    return f"misses the bars by {100 * window:.1f} cm"
-
-
-def _arrival(found: dict[str, Any]) -> str:
-    if not found["reached"]:
-        return f"the slave does not arrive ({found['reason']})."
-    return (
-        f"the slave arrives after {found['steps']} steps. Its end effector keeps "
-        f"{found['flange_window']:.3f} m from the bars and {found['flanges_apart']:.3f} m from the "
-        f"master's, until both arms rest; the virtual point acted {found['activations']} times."
-    )
-
-
 def _tracks_figure(
     view: replays.TracksView, layout: Layout, replay: Replay, *further: Any, **how: Any
 ) -> Any:
@@ -314,13 +265,3 @@ def _tracks_figure(
     start, end = layout.slave_points()
     marks = {"Start": start, "End": end, "virtual point": layout.window_centre}
     return replays.replay_figure(view, replay, layout.window(), marks, *further, **how)
-
-
-def _master_figure(layout: Layout, planner: PlannerChoice, plan: Plan) -> Any:
-    tracks = [
-        Track("attraction alone", master_undisturbed(layout, planner).tcp, "0.5", ":"),
-        Track("improved method", plan.tcp, MASTER),
-    ]
-    return tracks_figure(
-        layout.window(), tracks, {"start": plan.tcp[0], "goal": plan.tcp[-1]}, elev=18, azim=-40
-    )

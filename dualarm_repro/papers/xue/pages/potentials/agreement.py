@@ -5,11 +5,11 @@ Both are evaluated in a small problem in which all terms act.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
-import pinocchio as pin
 
 from .....arms import load_arm
 from .....ledger import REGISTRY, Residual, Result
@@ -17,79 +17,57 @@ from .....planning.checks.field_agreement import gradient_error
 from .....planning.descent.problem import PlanningProblem, problem
 from .....planning.field.obstacles import obstacles_of
 from .....planning.field.potentials import Potential
-from .....planning.settings import (
-    APFSettings,
-    Attraction,
-    Repulsion,
-    Termination,
-    Trap,
-    Update,
-    VirtualPoint,
-)
 from .....scene import PlacedArm, Scene, facing, window_frame
 from .....tracking import memo
-from ...document import SEED, gains, master_goal, master_start
-from ...reading import COMBINATIONS
+from ...document import SEED, master_goal, master_start
+from ...reading import PlannerChoice, improved
+from .printed_field import difference
 
 checks = partial(REGISTRY.checks, page="xue/potentials")
 
-VALUE = partial(
-    Residual, key="value", high=1e-9, label="largest difference of the field run to print"
-)
-GRADIENT = partial(
-    Residual,
-    key="gradient",
-    high=1e-6,
-    label="relative error of its gradient by central differences",
-)
+VALUE = Residual("value", "largest difference of the field run to print", high=1e-9)
+GRADIENT = Residual("gradient", "relative error of its gradient by central differences", high=1e-6)
 #: Configurations at which gradients are compared.
 _GRADIENTS = 60
 #: Place of a window close to the master's wrist at its start, in the frame of its base [m].
-_CENTRE = np.array([1.4, 0.0, -1.1])
+_CENTRE = (1.4, 0.0, -1.1)
+#: Only its potentials count; it is never run.
+_PLANNER = PlannerChoice(
+    control_points="frames_2_6",
+    window_distance="sum_over_bars",
+    update_rule="gradient",
+    step_gain=0.05,
+    max_step=0.02,
+    step_limit=1,
+    goal_tolerance=0.02,
+    stuck_rule="block_means",
+    stuck_threshold=1e-3,
+    virtual_term="position",
+    virtual_switching="on_when_stuck",
+    virtual_release=0.1,
+    virtual_gain=2.0,
+    joint_term_weight=1.0,
+    joint_limits_in_motion="ignored",
+)
 
 
 @memo(64)
 def sample_problem(
-    window_distance: str = "sum_over_bars",
-    control_points: str = "frames_2_6",
-    joint_weight: float = 1.0,
-    virtual_gain: float = 2.0,
-    virtual_centre: tuple[float, float, float] = tuple(_CENTRE),
-    virtual_switching: str = "on_when_stuck",
-    virtual_joints: bool = False,
+    virtual_centre: tuple[float, float, float] = _CENTRE, **chosen: Any
 ) -> PlanningProblem:
     """Master from the printed start to the printed goal beside a window, with the printed gains.
 
-    With ``virtual_joints`` the virtual point attracts the joints to the goal angles as well.
+    Parameters
+    ----------
+    chosen
+        Fields of a :class:`PlannerChoice` that its potentials depend on.
     """
-    arm = load_arm("es165d")
-    placed = PlacedArm("master", arm, pin.SE3.Identity(), master_start(), master_goal())
-    window = window_frame(_CENTRE, facing((1.0, 0.0, 0.0)), 0.5, 0.5, 0.1, 0.1)
-    scene = Scene([placed], {"window": window}, self_collision=False)
-    settings = APFSettings(
-        attraction=Attraction(gain=gains()["k_a"], joint_weight=joint_weight),
-        control_points=control_points,
-        repulsion=Repulsion(
-            gain=gains()["k_r"], influence=gains()["d_0"], combination=COMBINATIONS[window_distance]
-        ),
-        virtual_point=VirtualPoint(
-            gain=virtual_gain,
-            position=virtual_centre,
-            joints=tuple(master_goal()) if virtual_joints else None,
-            switching=virtual_switching,
-            release_distance=0.1,
-            max_steps=1,
-            max_activations=1,
-        ),
-        update=Update(rule="gradient", max_step=0.02, gain=0.05),
-        termination=Termination(
-            joint_tolerance=0.02,
-            step_limit=1,
-            trap=Trap(rule="block_means", steps=1, threshold=1e-3),
-        ),
-    )
+    placed = PlacedArm("master", load_arm("es165d"), start=master_start(), goal=master_goal())
+    window = window_frame(np.array(_CENTRE), facing((1.0, 0.0, 0.0)), 0.5, 0.5, 0.1, 0.1)
+    obstacles = obstacles_of(Scene([placed], {"window": window}, self_collision=False))
+    settings = improved(replace(_PLANNER, **chosen), np.array(virtual_centre), master_goal())
     away = master_start() + np.array([0.8, 0.0, 0.0, 0.0, 0.0, 0.0])
-    return problem(placed, away, master_goal(), obstacles_of(scene), settings)
+    return problem(placed, away, master_goal(), obstacles, settings)
 
 
 def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
@@ -101,18 +79,15 @@ def samples(made: PlanningProblem, count: int = 200) -> np.ndarray:
 
 def choices(name: str) -> list[Any]:
     """The readings that are declared for an assumption."""
-    return list(REGISTRY.declared(f"xue.{name}", "choices").choices)
-
-
-def difference(printed: np.ndarray, run: np.ndarray) -> float:
-    """Largest difference; NaN counts, so that what cannot be evaluated agrees with nothing."""
-    return float(abs(printed - run).max())
+    return list(REGISTRY.declared(f"xue.{name}", "choices").choices or ())
 
 
 def agreement(name: str, printed: np.ndarray, potential: Potential, q: np.ndarray) -> Result:
     """The printed formula against the potential that is descended, and its gradient."""
-    found = difference(printed, potential.value(q))
-    error = gradient_error(potential, q[:_GRADIENTS])
+    found, error = (
+        difference(printed, potential.value(q)),
+        gradient_error(potential, q[:_GRADIENTS]),
+    )
     return Result(
         obtained={"value": found, "gradient": error},
         caption=(

@@ -7,36 +7,19 @@ from dataclasses import replace
 import numpy as np
 
 from .....ledger import Assumed, Is, Residual, Result, Role
+from .....ledger.captions import captions
 from .....planning.descent.problem import PlanningProblem
 from .....planning.descent.virtual_point import initial
 from .....planning.field.control_points import control_points, end_effector, ends_of
 from .....view.shares import curve_figure
 from ...document import gains
-from ...motions import master_plan
+from ...motions import master_plan, present
 from ...reading import nominal
 from ...stored import minima_shares
-from .agreement import (
-    GRADIENT,
-    VALUE,
-    agreement,
-    checks,
-    choices,
-    difference,
-    sample_problem,
-    samples,
-    worst,
-)
-from .printed_field import (
-    attraction,
-    new_attraction,
-    new_attractions,
-    repulsion,
-    slope,
-    summands,
-    summed,
-    total,
-)
+from . import printed_field as printed
+from .agreement import GRADIENT, VALUE, agreement, checks, choices, sample_problem, samples, worst
 
+caption = captions(__file__)
 #: Factor by which the unit of length is made smaller; any but 1 would do.
 _UNIT = 2.0
 
@@ -45,8 +28,8 @@ _UNIT = 2.0
     "xue.eq13",
     samples=32,
     rules=[
-        VALUE(),
-        GRADIENT(),
+        VALUE,
+        GRADIENT,
         Is(
             "one_dimension",
             "both printed terms scale alike with the unit of length",
@@ -64,30 +47,22 @@ _UNIT = 2.0
 def improved_attraction(assumed: Assumed) -> Result:
     """(13): position and joint term, how they scale, and what the unit of length decides."""
     weight = assumed["joint_term_weight"]
-    made = sample_problem(joint_weight=weight)
+    made = sample_problem(joint_term_weight=weight)
     q = samples(made)
-    square, angles = _squares(made, q)
-    ratio = float(np.median(square / angles))
-    minima, scaling = minima_shares(), term_scaling()
-    found = agreement("(13)", new_attractions(made, q), made.attraction, q)
+    gaps = (end_effector(made.placed, q) - made.goal_point, q - made.goal)
+    square, angles = (np.sum(gap**2, axis=1) for gap in gaps)
+    ratio, minima = float(np.median(square / angles)), minima_shares()
+    found = agreement("(13)", printed.new_attractions(made, q), made.attraction, q)
     return Result(
         obtained={
             **found.obtained,
-            **scaling,
+            **term_scaling(),
             "value_at_weight_one": _at_weight_one(),
             "position_to_joint_in_m": ratio,
             "position_to_joint_in_mm": 1e6 * ratio,
-            "minima_share": {f"{w:g}": found_share.value for w, found_share in minima.items()},
+            "minima_share": {f"{w:g}": share.value for w, share in minima.items()},
         },
-        caption=(
-            f"{found.caption} With a unit of length {_UNIT:g} times smaller the position term "
-            f"grows {scaling['position_factor']:.3g} times and the joint term "
-            f"{scaling['joint_factor']:.3g} times. Lengths in metres make the position term "
-            f"{ratio:.2g} times the joint term in the middle of the samples, in millimetres it "
-            f"would be {1e6 * ratio:.1g} times. Without any obstacle {minima[1.0].value:.1%} of "
-            f"random descents end in a minimum elsewhere with metres, {minima[1e-6].value:.0%} "
-            "with millimetres."
-        ),
+        caption=caption("eq13", agreement=found.told(), unit=_UNIT),
         alt="Share of descents without obstacle that end elsewhere, falling with the joint weight.",
         figure=lambda: curve_figure(
             list(minima),
@@ -102,7 +77,7 @@ def improved_attraction(assumed: Assumed) -> Result:
 def _at_weight_one() -> float:
     made = sample_problem()
     q = samples(made)
-    return difference(new_attractions(made, q), made.attraction.value(q))
+    return printed.difference(printed.new_attractions(made, q), made.attraction.value(q))
 
 
 def term_scaling() -> dict[str, float | bool]:
@@ -114,42 +89,37 @@ def term_scaling() -> dict[str, float | bool]:
     made = sample_problem()
     q = samples(made)[:1]
     (x,), goal = end_effector(made.placed, q), made.goal_point
-    joints = (q[0], made.goal)
-    at_goal = (made.goal, made.goal)
 
-    def factor(here: np.ndarray, angles: tuple[np.ndarray, np.ndarray]) -> float:
-        before, after = (new_attraction(u * here, u * goal, *angles) for u in (1.0, _UNIT))
+    def factor(here: np.ndarray, angles: np.ndarray) -> float:
+        before, after = (
+            printed.new_attraction(u * here, u * goal, angles, made.goal) for u in (1.0, _UNIT)
+        )
         return after / before if before else float("nan")
 
-    position, joint = factor(x, at_goal), factor(goal, joints)
+    position, joint = factor(x, made.goal), factor(goal, q[0])
     differ = np.isfinite([position, joint]).all() and not np.isclose(position, joint)
     return {"one_dimension": not differ, "position_factor": position, "joint_factor": joint}
 
 
-@checks("xue.eq14", rules=[VALUE(), GRADIENT()])
+@checks("xue.eq14", rules=[VALUE, GRADIENT])
 def point_repulsion(assumed: Assumed) -> Result:
     """(14): one potential per control point, for every reading of points and bars."""
     found = {}
     for reading in choices("window_distance"):
         for points in choices("control_points"):
-            made = sample_problem(reading, points)
+            made = sample_problem(window_distance=reading, control_points=points)
             q = samples(made)[:40]
-            printed = repulsion(
-                "eq14", made.repulsion.distances(q), nearest=reading == "nearest_bar"
-            )
-            run = made.repulsion.terms(q)
-            result = agreement("(14)", printed.sum(axis=1), made.repulsion, q)
-            result.obtained["value"] = float(abs(printed - run).max())
+            distances, nearest = made.repulsion.distances(q), reading == "nearest_bar"
+            terms = printed.repulsion("eq14", distances, nearest=nearest)
+            result = agreement("(14)", terms.sum(axis=1), made.repulsion, q)
+            result.obtained["value"] = printed.difference(terms, made.repulsion.terms(q))
             found[f"{points} with {reading}"] = result
     return worst(found, "(14), point by point")
 
 
 @checks(
     "xue.eq15",
-    rules=[
-        Is("as_many", "as many points as print sums over, in every reading", value=True),
-        VALUE(),
-    ],
+    rules=[Is("as_many", "as many points as print sums over, in every reading", value=True), VALUE],
 )
 def five_summands(assumed: Assumed) -> Result:
     """(15): the sum over the points; which five of the six joints is left open."""
@@ -158,49 +128,44 @@ def five_summands(assumed: Assumed) -> Result:
         made = sample_problem(control_points=choice)
         q = samples(made)[:60]
         terms = made.repulsion.terms(q)
-        differences.append(float(abs(summed(terms) - made.repulsion.value(q)).max()))
+        differences.append(printed.difference(printed.summed(terms), made.repulsion.value(q)))
         counts[choice] = len(made.points.names)
         ends = ends_of(made.placed, control_points(made.placed.arm, choice), q)
         still = np.ptp(ends, axis=0).max(axis=(1, 2)) == 0.0
-        fixed[choice] = [
-            name for name, rests in zip(made.points.names, still, strict=True) if rests
-        ]
-    rests = "; ".join(f"{', '.join(names)} of {choice}" for choice, names in fixed.items() if names)
+        names = made.points.names
+        fixed[choice] = [name for name, rests in zip(names, still, strict=True) if rests]
+    summands = printed.summands()
     return Result(
         obtained={
-            "as_many": all(count == summands() for count in counts.values()),
-            "summands": summands(),
+            "as_many": all(count == summands for count in counts.values()),
+            "summands": summands,
             "points": counts,
             "value": float(np.max(differences)),
             "cannot_move": fixed,
         },
-        caption=(
-            f"Print sums {summands():.0f} terms; each of the readings {', '.join(counts)} has as "
-            "many points. The sum of their potentials differs from the repulsion that is descended "
-            f"by at most {np.max(differences):.0e}. No joint can move {rests or 'none of them'}."
-        ),
+        caption=caption("eq15"),
     )
 
 
-@checks("xue.eq16", rules=[VALUE(), GRADIENT()])
+@checks("xue.eq16", rules=[VALUE, GRADIENT])
 def total_potential(assumed: Assumed) -> Result:
     """(16) against what the arm descends when it sets out."""
     switching, term = assumed["virtual_switching"], assumed["virtual_term"]
-    made = sample_problem(virtual_switching=switching, virtual_joints=term == "position_and_joints")
+    made = sample_problem(virtual_switching=switching, virtual_term=term)
     q = samples(made)
-    repulsive = summed(repulsion("eq14", made.repulsion.distances(q), nearest=False))
-    printed = total(new_attractions(made, q), repulsive)
+    repulsive = printed.repulsion("eq14", made.repulsion.distances(q), nearest=False)
+    total = printed.total(printed.new_attractions(made, q), printed.summed(repulsive))
     field = made.field_in(initial(made.switch_rules))
-    found = agreement("(16)", printed, field, q)
+    found = agreement("(16)", total, field, q)
     lacking = " Print lacks the term of the virtual point, which acts from the start."
-    return replace(found, caption=found.caption + ("" if len(field.parts) == 2 else lacking))
+    return replace(found, caption=found.told() + ("" if len(field.parts) == 2 else lacking))
 
 
 @checks(
     "xue.eq_virtual",
     rules=[
-        VALUE(),
-        GRADIENT(),
+        VALUE,
+        GRADIENT,
         Residual(
             "rest_slope",
             "slope of both attractions, as printed, at (k_a X_g + k_av X_v)/(k_a + k_av)",
@@ -211,32 +176,24 @@ def total_potential(assumed: Assumed) -> Result:
 )
 def virtual_attraction(assumed: Assumed) -> Result:
     """The virtual point: the form printed for the goal with k_av, and where an arm rests."""
-    switching, case = assumed["virtual_switching"], nominal()
+    switching = assumed["virtual_switching"]
+    case = nominal(virtual_switching=switching)
     gain, centre = case.planner.virtual_gain, case.layout.window_centre
     found = {}
     for term in choices("virtual_term"):
-        joints = term == "position_and_joints"
-        made = sample_problem(
-            virtual_gain=gain, virtual_centre=tuple(centre.tolist()), virtual_joints=joints
-        )
+        made = sample_problem(tuple(centre.tolist()), virtual_gain=gain, virtual_term=term)
         q = samples(made)
-        found[term] = agreement("The term", _virtual(made, q, joints), made.virtual, q)
+        found[term] = agreement("The term", _virtual(made, q), made.virtual, q)
     result = worst(found, "The term of the virtual point, in the form (9) or (13)")
-    plan = master_plan(case.layout, replace(case.planner, virtual_switching=switching))
-    share = gain / (gain + gains()["k_a"])
-    off = float(np.linalg.norm(plan.tcp[-1] - end_effector(plan.placed, plan.goal)))
+    plan = present(master_plan(case.layout, case.planner), "plan of the master")
     result.obtained.update(
-        rest_slope=rest_slope(), rest_share=share, arrives=plan.reached, end_off_goal=off
+        rest_slope=rest_slope(),
+        rest_share=gain / (gain + gains()["k_a"]),
+        arrives=plan.reached,
+        end_off_goal=float(np.linalg.norm(plan.tcp[-1] - end_effector(plan.placed, plan.goal))),
     )
-    return replace(
-        result,
-        caption=(
-            f"{result.caption} An end effector that both attract rests {share:.0%} of the way from "
-            "the goal to the virtual point, so that the point must be off when the goal is to be "
-            f"reached. Switched '{switching.replace('_', ' ')}', it lets the master end "
-            f"{off:.3f} m from its goal."
-        ),
-    )
+    told = caption("eq_virtual", agreement=result.told(), switching=switching.replace("_", " "))
+    return replace(result, caption=told)
 
 
 def rest_slope() -> float:
@@ -246,27 +203,16 @@ def rest_slope() -> float:
     rest = (gains()["k_a"] * goal + gain * centre) / (gains()["k_a"] + gain)
 
     def both(x: np.ndarray) -> float:
-        return attraction(x, goal) + attraction(x, centre, gain)
+        return printed.attraction(x, goal) + printed.attraction(x, centre, gain)
 
-    return float(abs(slope(both, rest)).max())
+    return float(abs(printed.slope(both, rest)).max())
 
 
-def _virtual(made: PlanningProblem, q: np.ndarray, joints: bool) -> np.ndarray:
+def _virtual(made: PlanningProblem, q: np.ndarray) -> np.ndarray:
     """The form printed for the goal, (9) or (13), with the virtual point and its gain (N,)."""
-    point = made.settings.virtual_point
+    point = present(made.settings.virtual_point, "virtual point")
     centre, flange = np.array(point.position), end_effector(made.placed, q)
-    if not joints:
-        return np.array([attraction(x, centre, point.gain) for x in flange])
-    angles = np.array(point.joints)
-    return np.array(
-        [
-            new_attraction(x, centre, row, angles, point.gain)
-            for x, row in zip(flange, q, strict=True)
-        ]
-    )
-
-
-def _squares(made: PlanningProblem, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """|X - X_g|^2 and the sum of |theta_i - theta_gi|^2, (N,) each."""
-    flange = end_effector(made.placed, q)
-    return np.sum((flange - made.goal_point) ** 2, axis=1), np.sum((q - made.goal) ** 2, axis=1)
+    if point.joints is None:
+        return np.array([printed.attraction(x, centre, point.gain) for x in flange])
+    angles, pairs = np.array(point.joints), zip(flange, q, strict=True)
+    return np.array([printed.new_attraction(x, centre, k, angles, point.gain) for x, k in pairs])

@@ -98,5 +98,10 @@ def total(attractive: np.ndarray, repulsive: np.ndarray) -> np.ndarray:
     return np.broadcast_to(np.asarray(value("eq16", 1, given), dtype=float), attractive.shape)
 
 
+def difference(printed: np.ndarray, run: float | np.ndarray) -> float:
+    """Largest difference; NaN counts, so that what cannot be evaluated agrees with nothing."""
+    return float(abs(printed - run).max())
+
+
 def _number(found: Any) -> float:
     return float(found) if np.ndim(found) == 0 else np.nan

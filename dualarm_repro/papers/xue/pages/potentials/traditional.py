@@ -9,31 +9,23 @@ import numpy as np
 
 from .....differences import central_differences
 from .....ledger import Assumed, Bounded, Is, Residual, Result, Role
+from .....ledger.captions import captions
 from .....planning.checks.field_agreement import gradient_error
 from .....planning.descent.problem import PlanningProblem
 from .....planning.field.control_points import end_effector
 from .....tracking import memo
 from ...document import gains
-from .agreement import (
-    GRADIENT,
-    VALUE,
-    agreement,
-    checks,
-    choices,
-    difference,
-    sample_problem,
-    samples,
-    worst,
-)
+from .agreement import GRADIENT, VALUE, agreement, checks, choices, sample_problem, samples, worst
 from .printed_field import attraction, repulsion, repulsive_force, slope, value
 
+caption = captions(__file__)
 #: Configurations at which forces are compared, each with central differences of distances.
 _FORCES = 40
 #: Largest relative difference of a force by central differences.
 _BY_DIFFERENCES = 1e-6
 
 
-@checks("xue.eq09", rules=[VALUE(), GRADIENT()])
+@checks("xue.eq09", rules=[VALUE, GRADIENT])
 def traditional_attraction(assumed: Assumed) -> Result:
     """(9) at the flange against the attraction that is descended."""
     made = sample_problem()
@@ -45,8 +37,8 @@ def traditional_attraction(assumed: Assumed) -> Result:
 @checks(
     "xue.eq10",
     rules=[
-        VALUE(),
-        GRADIENT(),
+        VALUE,
+        GRADIENT,
         Bounded(
             "at_range",
             "potential, and slope from within, of print at d_0 and just beyond it",
@@ -58,7 +50,7 @@ def traditional_repulsion(assumed: Assumed) -> Result:
     """(10) summed over the bars, and for the nearest one."""
     found = {}
     for reading in choices("window_distance"):
-        made = sample_problem(reading, control_points="end_effector")
+        made = sample_problem(window_distance=reading, control_points="end_effector")
         q = samples(made)
         distances = made.repulsion.distances(q)
         printed = repulsion("eq10", distances, nearest=reading == "nearest_bar").sum(axis=1)
@@ -88,7 +80,7 @@ def _printed_energy(d: float) -> float:
             "without the modulus the last side is -grad of (9) as printed",
             value=True,
         ),
-        GRADIENT(),
+        GRADIENT,
         Is(
             "explained",
             "it is the modulus alone that makes the last side differ",
@@ -104,20 +96,8 @@ def attractive_force(assumed: Assumed) -> Result:
     made = sample_problem()
     error = gradient_error(made.attraction.parts[0], samples(made))
     explained = forms["vector_form"] and not forms["printed_form"]
-    if explained:
-        finding = (
-            "print has its modulus, one number that gives neither the direction nor, along a "
-            "line, the sign"
-        )
-    else:
-        finding = "print agrees" if forms["printed_form"] else "print is something else"
     return Result(
-        obtained={**forms, "explained": explained, "gradient": error},
-        caption=(
-            "The negative gradient of (9), taken as printed, is the vector -k_a (X - X_g); "
-            f"{finding}. The joint gradient k_a J^T (X - X_g) agrees with central differences to "
-            f"{error:.0e}."
-        ),
+        obtained={**forms, "explained": explained, "gradient": error}, caption=caption("eq11")
     )
 
 
@@ -145,14 +125,14 @@ def _sides_agree(norm: Callable[[Any], Any] | None) -> bool:
         }
         left = np.asarray(value("eq11", 1, given))
         right = np.asarray(value("eq11", 2, given if norm is None else {**given, "norm": norm}))
-        if left.shape != right.shape or not _close(left, right):
+        if left.shape != right.shape or not _apart(right, left) <= _BY_DIFFERENCES:
             return False
     return True
 
 
-def _close(left: np.ndarray, right: np.ndarray) -> bool:
-    scale = max(1.0, float(np.max(np.abs(left))))
-    return bool(np.max(np.abs(left - right)) <= _BY_DIFFERENCES * scale)
+def _apart(found: np.ndarray, reference: np.ndarray) -> float:
+    """Largest difference, relative to what is larger than one; NaN counts."""
+    return float(abs(found - reference).max() / max(1.0, float(abs(reference).max())))
 
 
 @checks(
@@ -160,7 +140,7 @@ def _close(left: np.ndarray, right: np.ndarray) -> bool:
     rules=[
         Residual("sides", "the force as printed against -grad of (10), at most", high=1e-6),
         Residual("force", "and against the joint forces of the field run", high=1e-6),
-        GRADIENT(),
+        GRADIENT,
     ],
 )
 def repulsive_force_run(assumed: Assumed) -> Result:
@@ -168,40 +148,31 @@ def repulsive_force_run(assumed: Assumed) -> Result:
     made = sample_problem(control_points="end_effector")
     q = samples(made)
     error, sides, force = gradient_error(made.repulsion, q), _force_sides(), _force_run(made, q)
-    return Result(
-        obtained={"sides": sides, "force": force, "gradient": error},
-        caption=(
-            "The last side of (12) differs from the slope of (10), both as printed, by at most "
-            f"{sides:.0e} of it. Taken with the slope of the distance by the joints, and added "
-            f"over the bars, it differs from the joint forces that are run by {force:.0e}; these "
-            f"agree with central differences to {error:.0e}."
-        ),
-    )
+    return Result({"sides": sides, "force": force, "gradient": error}, caption("eq12"))
 
 
 def _force_sides() -> float:
     """Largest relative difference of -dU/dd and the printed force for dd/dX = 1."""
-    largest = 0.0
+    found = []
     for d in np.linspace(0.05, 1.5 * gains()["d_0"], 26):
         given = {
             "U_rep": lambda at: _printed_energy(at.item()),
             "grad": lambda potential, d=d: slope(potential, np.array([d])),
         }
         left = np.asarray(value("eq12", 1, given), dtype=float)
-        right = repulsive_force(float(d), np.ones(1))
-        largest = np.maximum(largest, difference(left, right) / max(1.0, float(abs(right).max())))
-    return float(largest)
+        found.append(_apart(left, repulsive_force(float(d), np.ones(1))))
+    return float(np.max(found))
 
 
 def _force_run(made: PlanningProblem, q: np.ndarray) -> float:
     """Largest relative difference of the printed forces in the joints to those of the field."""
-    largest = 0.0
+
+    def distances(at: np.ndarray) -> np.ndarray:
+        return made.repulsion.distances(at[np.newaxis])[0, 0]
+
+    found = []
     for row in q[:_FORCES]:
-        slopes = central_differences(
-            lambda at: made.repulsion.distances(at[np.newaxis])[0, 0], row
-        )  # (joints, bars)
-        distances = made.repulsion.distances(row[np.newaxis])[0, 0]
-        force = sum(repulsive_force(float(d), slopes[:, bar]) for bar, d in enumerate(distances))
-        run = -made.repulsion.gradient(row)
-        largest = np.maximum(largest, difference(force, run) / max(1.0, float(abs(run).max())))
-    return float(largest)
+        by_bar = zip(distances(row), central_differences(distances, row).T, strict=True)
+        force = np.sum([repulsive_force(float(d), slopes) for d, slopes in by_bar], axis=0)
+        found.append(_apart(force, -made.repulsion.gradient(row)))
+    return float(np.max(found))

@@ -9,29 +9,30 @@ from time import perf_counter
 import numpy as np
 
 from .....arms.counted_inverse import counting_inverse
-from .....arms.tool_postures import tool_posture
+from .....arms.tool_postures import ToolRule, tool_posture
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
+from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....planning.descent.apf import plan_apf
 from .....planning.descent.batch import plan_batch
 from .....planning.descent.termination import StopReason
-from .....scene import PlacedArm
 from .....tracking import memo
 from ...document import (
     METHODS_OF_TABLE_2,
-    assumption,
+    Posed,
+    assumptions,
     placed_master,
-    placed_slave,
     printed_vector,
     text_counts,
 )
-from ...motions import slave_obstacles, window_obstacles
+from ...motions import present, slave_task, window_obstacles
 from ...outcomes import TRIALS, VARIANTS, run_variant, starts, variant_of
 from ...reading import POSITION_TOLERANCE, Case, improved, nominal
 from ..potentials.printed_field import attraction
-from .table import Trials, assumed_trials
+from .table import TRIAL_SETTINGS, Trials, assumed_trials
 
 checks = partial(REGISTRY.checks, page="xue/table2")
+caption = captions(__file__)
 
 _REPEATS = 3  # of a measured time
 #: Printed start and goal of each arm: angles under ``q`` or a position under ``position``.
@@ -56,26 +57,18 @@ def times(assumed: Assumed) -> Result:
     """Steps of both methods, which do not depend on the machine, and times measured here."""
     trials, timed = assumed_trials(assumed), assumed["timed_runs"]
     printed = printed_seconds(assumed["table2_exchange"])
-    longer, shorter = sorted(printed, key=printed.get, reverse=True)
+    longer, shorter = sorted(printed, key=lambda name: printed[name], reverse=True)
     steps = _steps(trials, timed)
-    ratio = None if not (steps[longer] and steps[shorter]) else steps[longer] / steps[shorter]
+    many, few = steps[longer], steps[shorter]
     return Result(
         obtained={
             "mean_steps": steps,
-            "step_ratio": ratio,
+            "step_ratio": many / few if many and few else None,
             "printed_ratio": printed[longer] / printed[shorter],
             "longer": longer,
         },
         measured={} if trials is None else _milliseconds(Case.of(assumed), assumed),
-        caption=(
-            f"With the labels read so that the {longer} method takes the longer, the printed times "
-            f"have a ratio of {printed[longer] / printed[shorter]:.2f}. Over {timed} runs the "
-            f"traditional method makes {_number(steps['traditional'])} steps on average and the "
-            f"improved one {_number(steps['improved'])}. Seconds depend on a computer that is not "
-            "named; the steps, which can be counted, carry the order. A run that ends in a trap "
-            "adds the steps of the trap detection, so that the order also follows from what is "
-            "counted as a planning time."
-        ),
+        caption=caption("claim_times", timed=timed),
     )
 
 
@@ -97,7 +90,7 @@ def _steps(trials: Trials | None, timed: str) -> dict[str, float | None]:
 
 def _milliseconds(case: Case, assumed: Assumed) -> dict[str, float]:
     """Mean time per run, planning only, best of some repeats [ms]."""
-    placed, obstacles = placed_slave(case.layout), slave_obstacles(case)
+    placed, obstacles = slave_task(case)
     rng = np.random.default_rng(assumed["trial_seed"])
     begin = starts(case, assumed["trial_perturbation"], TRIALS, rng)
     found = {}
@@ -109,10 +102,6 @@ def _milliseconds(case: Case, assumed: Assumed) -> dict[str, float]:
             best = min(best, perf_counter() - since)
         found[f"ms_per_run_{name}"] = 1e3 * best / TRIALS
     return found
-
-
-def _number(value: float | None) -> str:
-    return "no" if value is None else f"{value:.0f}"
 
 
 @checks(
@@ -135,29 +124,16 @@ def _number(value: float | None) -> str:
 )
 def stops_at_zero(assumed: Assumed) -> Result:
     """The potential where runs end: at the goal and in a trap."""
-    names = ("classical_method", "trial_perturbation", "trial_seed")
-    at_goal, at_trap, gradient = _trap(nominal(), *(assumption(name) for name in names))
-    near = attraction(np.zeros(3), np.array([POSITION_TOLERANCE, 0.0, 0.0]))
-    traps = max(text_counts().values())
-    shown = "no run is trapped" if at_trap is None else (
-        f"a trapped run stands still at a potential of {at_trap:.2f}, where the gradient is "
-        f"{gradient:.0e}"
-    )  # fmt: skip
+    at_goal, at_trap, gradient = _trap(nominal(), *assumptions(*TRIAL_SETTINGS).values())
     return Result(
         obtained={
-            "printed_traps": traps,
-            "off_goal": near,
+            "printed_traps": max(text_counts().values()),
+            "off_goal": attraction(np.zeros(3), np.array([POSITION_TOLERANCE, 0.0, 0.0])),
             "at_goal": at_goal,
             "at_trap": at_trap,
             "gradient": gradient,
         },
-        caption=(
-            f"At the slave's goal the total potential is {at_goal:.1e}. Yet {traps} of the printed "
-            "runs stand still away from it, where (9) alone is positive: at least "
-            f"{near:.1e} beyond the distance of {POSITION_TOLERANCE:g} m at which a run arrives. "
-            f"In the arrangement shown {shown}. What ends a motion is a vanishing gradient, as the "
-            "document itself says of its local minima, not potential 0."
-        ),
+        caption=caption("claim_stop_zero", tolerance=POSITION_TOLERANCE),
     )
 
 
@@ -200,25 +176,19 @@ def without_inverse_kinematics(assumed: Assumed) -> Result:
     case = nominal()
     around = {
         "master": (placed_master(case.layout), window_obstacles(case.layout)),
-        "slave": (placed_slave(case.layout), slave_obstacles(case)),
+        "slave": slave_task(case),
     }
     calls, steps = {}, {}
     for name, (arm, obstacles) in around.items():
         inner, counter = counting_inverse(arm.arm)
         counted = replace(arm, arm=inner)
-        ends = [_angles(counted, item, case.layout.slave_postures) for item in _ENDS[name]]
-        settings = improved(case.planner, case.layout.window_centre, ends[1])
-        plan = plan_apf(counted, *ends, obstacles, settings)
+        start, goal = (_angles(counted, item, case.layout.slave_postures) for item in _ENDS[name])
+        settings = improved(case.planner, case.layout.window_centre, goal)
+        plan = plan_apf(counted, start, goal, obstacles, settings)
         calls[name], steps[name] = len(counter), plan.steps
     return Result(
         obtained={"calls": calls, "steps": steps, "needs_goal_angles": needs_goal_angles()},
-        caption=(
-            f"(13) {'needs' if needs_goal_angles() else 'does not need'} the goal angles. In the "
-            f"run of the master, whose start and goal are printed as angles, inverse kinematics is "
-            f"called {calls['master']} times in {steps['master']} steps; in that of the slave, for "
-            f"which positions are printed, {calls['slave']} times, all of them before the first of "
-            f"its {steps['slave']} steps: no step needs it, yet without it the slave has no goal."
-        ),
+        caption=caption("claim_no_ik"),
     )
 
 
@@ -228,9 +198,9 @@ def needs_goal_angles() -> bool:
     return any(str(symbol).startswith("theta_g") for symbol in formula.sides[-1].free_symbols)
 
 
-def _angles(placed: PlacedArm, item: str, choice: str) -> np.ndarray:
+def _angles(placed: Posed, item: str, rule: ToolRule) -> np.ndarray:
     """Angles of a printed start or goal; a printed position takes inverse kinematics."""
     if "q" in REGISTRY.printed(f"xue.{item}"):
         return printed_vector(item, "q")
     target = printed_vector(item, "position")
-    return tool_posture(placed.arm, target - placed.placement.translation, choice)
+    return present(tool_posture(placed.arm, target - placed.placement.translation, rule), item)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Exceeds, Result
+from .....ledger.captions import captions
 from .....ledger.shares import Share
 from .....view.shares import shares_figure
 from ...outcomes import TRIALS, variant_of
@@ -22,6 +23,7 @@ from ...stored import (
 )
 
 checks = partial(REGISTRY.checks, page="xue/table2")
+caption = captions(__file__)
 
 #: What each respect is measured by, in words for a caption.
 _MEASURES = {
@@ -42,29 +44,19 @@ def superior(assumed: Assumed) -> Result:
     differences = paired_differences(reading, path)
     found = {name: mean_with_interval(column.dropna()) for name, column in differences.items()}
     table = lottery_table()[starts_clear()]
-    columns = {
-        name: table[f"{variant_of(method)}_missed"]
-        for name, method in (("traditional", reading), ("improved", "improved"))
-    }
+    methods = {"traditional": variant_of(reading), "improved": "improved"}
+    columns = {name: table[f"{method}_missed"] for name, method in methods.items()}
     never = {name: Share.of((column == 0).sum(), len(table)) for name, column in columns.items()}
-    mean = {name: float(column.mean()) for name, column in columns.items()}
     return Result(
         obtained={
             **found,
             "arrangements": len(table),
             "left_out": int((~starts_clear()).sum()),
-            "mean_missed": mean,
+            "mean_missed": {name: float(column.mean()) for name, column in columns.items()},
             "never_missed": {name: value._asdict() for name, value in never.items()},
         },
         table=differences.reset_index(names="arrangement"),
-        caption=(
-            f"Over {len(table)} random arrangements (others, in which a start already touches an "
-            f"obstacle, are left out) the improved method misses {mean['improved']:.2f} of "
-            f"{TRIALS} runs on average and the traditional one {mean['traditional']:.2f}; without "
-            f"a miss are {never['improved'].value:.0%} and {never['traditional'].value:.0%} of the "
-            f"arrangements. {' '.join(_sentence(name, found[name]) for name in _MEASURES)} "
-            f"Quality is measured by the length of the {path.replace('_', ' ')}."
-        ),
+        caption=caption("claim_better", trials=TRIALS, path=path, measures=_MEASURES, found=found),
         alt="Bars with intervals: share of arrangements without a missed run, for both methods.",
         figure=lambda: shares_figure(
             {name: {"no run missed": value} for name, value in never.items()},
@@ -96,12 +88,6 @@ def paired_differences(reading: str, path: str) -> pd.DataFrame:
             "efficiency": np.log(table[f"{old}_steps_reached"] / table["improved_steps_reached"]),
         }
     )
-
-
-def _sentence(name: str, found: dict[str, Any]) -> str:
-    word = "holds" if found["low"] > 0.0 else "fails" if found["high"] < 0.0 else "is open"
-    interval = f"{found['value']:.3f} (95 % interval {found['low']:.3f} to {found['high']:.3f})"
-    return f"{name.capitalize()} {word}: {_MEASURES[name]} {interval}."
 
 
 def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
