@@ -74,17 +74,15 @@ def is_card(cell):
 
 
 def called(source):
-    """Names that a source calls, in its order, as they are written."""
-    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
-    calls.sort(key=lambda node: (node.lineno, node.col_offset))
-    return [ast.unparse(node.func) for node in calls]
+    """Names that a source calls, as they are written."""
+    calls = (node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call))
+    return {ast.unparse(node.func) for node in calls}
 
 
 @pytest.mark.parametrize("page", METHODS)
 def test_methods_are_called_where_the_reader_sees_them(page):
     names = called("\n".join(cells(page)))
-    missing = set(METHODS[page].split()) - set(names)
-    assert not missing
+    assert set(METHODS[page].split()) <= names
     assert sum(map(is_card, cells(page))) <= len(cells(page)) / 2
 
 
