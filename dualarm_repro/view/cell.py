@@ -42,16 +42,22 @@ def beside_ledger(item_id: str, computed: Mapping[str, Any]) -> pd.DataFrame:
     ledger = obtained(item_id)
     rows = {}
     for key, value in computed.items():
-        rows[key] = {"this page": _told(value), item_id: _told(_at(ledger, key))}
+        rows[key] = {"this page": _told(value), item_id: _told(value_at(ledger, key))}
     return pd.DataFrame.from_dict(rows, orient="index")
 
 
-def _at(values: Any, key: str) -> Any:
-    """The value under a key that may lead into nested mappings."""
+def value_at(values: Any, key: str) -> Any:
+    """The value under a key; dots lead into nested mappings.
+
+    Raises
+    ------
+    KeyError
+        No such value.
+    """
     if key in values:
         return values[key]
-    outer, _, inner = key.partition(".")
-    return _at(values[outer], inner)
+    outer, dot, inner = key.partition(".")
+    return value_at(values[outer], inner) if dot else values[key]
 
 
 def _told(value: Any) -> Any:

@@ -123,13 +123,6 @@ def executed():
     return get
 
 
-def at(values, key):
-    """The value under a dotted key."""
-    for part in key.split("."):
-        values = values[part]
-    return values
-
-
 def nested(key, value):
     """A value below the keys of its dotted key."""
     for part in reversed(key.split(".")):
@@ -149,7 +142,7 @@ def test_a_page_obtains_what_its_cards_judge(page, executed, registry):
         declared = comparisons(registry.item(item_id), registry.checkers[item_id].rules)
         reference = stored["items"][item_id]["obtained"]
         for key, value in computed.items():
-            expected = nested(key, at(reference, key))
+            expected = nested(key, cells_of_chapters.value_at(reference, key))
             assert differences(expected, nested(key, value), declared) == [], item_id
             if isinstance(value, float) and abs(value) > 1e-3:
                 assert differences(expected, nested(key, 1.1 * value), []), "a wrong one is seen"
