@@ -56,7 +56,7 @@ def sensitivity_figure(table: pd.DataFrame, nominal: np.ndarray, printed: np.nda
     """
     names = list(dict.fromkeys(table["assumption"]))
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(12, 0.3 * len(names) + 1.6), sharey=True)
+        figure, axes = plt.subplots(1, 3, figsize=(7.6, 0.24 * len(names) + 1.4), sharey=True)
         for k, (ax, color) in enumerate(zip(axes, (BLUE, GREEN, ORANGE), strict=True)):
             for row, name in enumerate(names):
                 values = table.loc[table["assumption"] == name, "xyz"[k]].dropna()
@@ -69,9 +69,10 @@ def sensitivity_figure(table: pd.DataFrame, nominal: np.ndarray, printed: np.nda
                 ax.plot(values, [row] * len(values), "o", color=color, ms=4)
             ax.axvline(centre, color=BLACK, lw=1)
             ax.axvline(abs(printed[k]) if k == 0 else printed[k], color=RED, ls="--", lw=1)
-            ax.set(xlabel=("|x| [m]", "y [m]", "z [m]")[k], ylabel="assumption")
+            ax.set(xlabel=("|x| [m]", "y [m]", "z [m]")[k])
         axes[0].set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
         axes[0].invert_yaxis()
+        axes[0].set_ylabel("assumption")
         axes[0].plot([], [], color=BLACK, label="declared assumptions")
         axes[0].plot([], [], color=RED, ls="--", label="printed point")
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)

@@ -1,0 +1,233 @@
+"""The chapters of `patent` and `pan` run what they tell of, and obtain what the ledger obtained."""
+
+import ast
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dualarm_repro.control import (
+    ControllerSettings,
+    NetworkSettings,
+    integrate_network,
+    simulate_network,
+    solve,
+)
+from dualarm_repro.datafiles import data_path
+from dualarm_repro.ledger.comparison import comparisons
+from dualarm_repro.ledger.drift import differences
+from dualarm_repro.ledger.files import through_json
+from dualarm_repro.papers.pan.reading import Job, Problem, optimum
+from dualarm_repro.papers.patent.document import COARSE_STEP, CONTROL_STEP, frozen, run
+from dualarm_repro.view import cell as cells_of_chapters
+from dualarm_repro.welding import GeneticSettings, Status, evolve
+
+BOOK = Path(__file__).parents[2] / "book"
+CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
+#: Page to calls that its story needs.
+METHODS = {
+    "patent/problem": """
+        frozen traced_steps self_motion central_differences run approach_bound cp.Variable
+        cp.Minimize cp.Problem least_velocity solve
+    """,
+    "patent/network": """
+        solve penalty rest_point L.diff sp.BlockMatrix code_error state_matrix np.linalg.solve
+        state_rate simulate_network integrate_network
+    """,
+    "patent/avoidance": """
+        run controller.problem draw_task naive_motion simulate simulate_network angle_excess
+        pseudo_inverse_cost
+    """,
+    "patent/contest": """
+        exact_cost steps_in_a_row network_errors primal_dual_errors simulate_network
+        simulate_primal_dual integrate_network
+    """,
+    "pan/cell": """
+        arm.link_transforms base_poses saddle_seam flat_rotations Workpiece assemble Placement
+        flange_poses periodic_derivative torch_tips
+    """,
+    "pan/measure": """
+        np.linalg.eigh closed_form block_diag cell_grams intersection_volume inverse_volumes
+        Objective best_by_unit
+    """,
+    "pan/optimum": """
+        survey grid_optimum nearer_image fitness optimum measures_at extreme_position
+    """,
+    "pan/search": """
+        Search initialise act evolve optimise
+    """,
+}
+
+
+def cells(page):
+    """Sources of the code cells of a page."""
+    found = CELL.findall((BOOK / f"{page}.md").read_text(encoding="utf-8"))
+    assert found
+    return found
+
+
+def is_card(cell):
+    """Whether a cell does nothing but show items."""
+    return re.fullmatch(r"\s*show\([^)]*\)\s*", cell) is not None
+
+
+def called(source):
+    """Names that a source calls, as they are written."""
+    calls = (node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call))
+    return {ast.unparse(node.func) for node in calls}
+
+
+@pytest.mark.parametrize("page", METHODS)
+def test_methods_are_called_where_the_reader_sees_them(page):
+    names = called("\n".join(cells(page)))
+    assert set(METHODS[page].split()) <= names
+    assert sum(map(is_card, cells(page))) <= len(cells(page)) / 2
+
+
+@pytest.mark.parametrize("page", METHODS)
+def test_cells_import_nothing_private_and_name_no_path(page):
+    for node in ast.walk(ast.parse("\n".join(cells(page)))):
+        if isinstance(node, ast.ImportFrom):
+            assert not [a.name for a in node.names if a.name.startswith("_")]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            assert not re.search(r"/(home|root|tmp|work)/", node.value)
+
+
+class Executed:
+    """A page whose cells were run without its cards: what they left, and what they set beside."""
+
+    def __init__(self, page):
+        self.compared, self.names = [], {"__name__": page}
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(cells_of_chapters, "beside_ledger", self._note)
+            for cell in cells(page):
+                if not is_card(cell):
+                    exec(compile(cell, page, "exec"), self.names)
+
+    def _note(self, item_id, computed):
+        self.compared.append((item_id, through_json(computed)))
+
+
+@pytest.fixture(scope="module")
+def executed():
+    """Pages by name, each run once."""
+    kept = {}
+
+    def get(page):
+        if page not in kept:
+            kept[page] = Executed(page)
+        return kept[page]
+
+    return get
+
+
+def nested(key, value):
+    """A value below the keys of its dotted key."""
+    for part in reversed(key.split(".")):
+        value = {part: value}
+    return {"obtained": value}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("page", METHODS)
+def test_a_page_obtains_what_its_cards_judge(page, executed, registry):
+    found = executed(page).compared
+    assert found, "a page sets a number of its own beside the ledger"
+    document = page.partition("/")[0]
+    stored = json.loads(data_path("results", f"{document}.json").read_text(encoding="utf-8"))
+    for item_id, computed in found:
+        assert registry.checkers[item_id].page == page
+        declared = comparisons(registry.item(item_id), registry.checkers[item_id].rules)
+        reference = stored["items"][item_id]["obtained"]
+        for key, value in computed.items():
+            expected = nested(key, cells_of_chapters.value_at(reference, key))
+            assert differences(expected, nested(key, value), declared) == [], item_id
+            if isinstance(value, float) and abs(value) > 1e-3:
+                assert differences(expected, nested(key, 1.1 * value), []), "a wrong one is seen"
+
+
+def test_the_programme_of_the_page_is_that_of_the_library(executed):
+    names = executed("patent/problem").names
+    problem, least_velocity = names["problem"], names["least_velocity"]
+    for pressed in (problem, names["within"]):
+        x, z, _ = least_velocity(pressed)
+        library = solve(pressed, "cvxpy")
+        assert np.abs(x - library.x).max() < 1e-6
+        assert np.abs(z - library.z).max(initial=0.0) < 1e-4
+    log = names["log"]
+    assert log["active"].max() >= 1
+    assert log["apart"].max() < 1e-5
+    assert log["distance"].min() > names["settings"].inner - 1e-3
+
+
+def test_the_network_of_the_page_is_that_of_the_library(executed):
+    names = executed("patent/network").names
+    assert np.abs(names["velocities"] - names["motion"].x).max() < 1e-8
+    beside = names["beside"]
+    pressing = beside[["row", "bound"]].max(axis=1) > 1e-6
+    assert beside["network"][pressing].median() > 10 * beside["lag"][pressing].median()
+
+
+def test_the_draws_of_the_page_are_those_of_the_study(executed):
+    sample = executed("patent/avoidance").names["sample"]
+    assert len(sample) > 3
+    for solver in ("QP", "network"):
+        assert np.allclose(sample[solver], sample[f"{solver}, stored"], rtol=1e-4)
+
+
+def test_the_cell_of_the_page_is_that_of_the_items(executed):
+    names = executed("pan/cell").names
+    own, judged = names["cell"], Job.of(names["assumed"]).cell()
+    for array in ("bases", "rotations", "flanges", "references", "seam", "pipe_cores"):
+        assert np.allclose(getattr(own, array), getattr(judged, array), atol=1e-12), array
+    assert own.threshold == judged.threshold
+    assert own.floor == judged.floor
+
+
+def test_the_loop_of_the_page_is_the_search(executed):
+    names = executed("pan/search").names
+    assert names["again"]
+    assert names["truth"].fitness >= names["run"].fitness > 0
+
+
+def test_what_a_reader_of_patent_is_told_to_change_has_the_consequence():
+    scenario, settings = frozen("crossing"), ControllerSettings()
+    assert run(scenario, settings.changed(avoid=False), COARSE_STEP).smallest_distance < -0.05
+    assert run(scenario, settings.changed(inner=0.06), COARSE_STEP).smallest_distance > 0.059
+    late = run(scenario, settings.changed(damper_gain=50.0), COARSE_STEP)
+    assert late.smallest_distance > 0.029
+    assert late.peak_acceleration > 2 * run(scenario, settings, COARSE_STEP).peak_acceleration
+    bare = simulate_network(
+        *scenario.parts, settings, NetworkSettings(hessian=False), dt=CONTROL_STEP
+    )
+    assert not bare.completed
+    fed, unfed = (
+        simulate_network(
+            *scenario.parts, settings, NetworkSettings(feed_forward=kind), dt=CONTROL_STEP
+        )
+        for kind in ("all", "none")
+    )
+    assert unfed.largest_error > 10 * fed.largest_error
+
+
+def test_without_feedback_a_wrong_state_is_kept(executed):
+    names = executed("patent/contest").names
+    y0 = names["starts"]["random"]
+    for feedback, kept in ((0.0, True), (10.0, False)):
+        changed = ControllerSettings(feedback=feedback)
+        motion, _ = integrate_network(*names["parts"], changed, NetworkSettings(), y0=y0)
+        assert (motion.error[-1].max() > 1e-3) == kept
+
+
+def test_what_a_reader_of_pan_is_told_to_change_has_the_consequence(registry):
+    values = registry.nominal("pan")
+    problem = Problem.of(values)
+    printed = [[float(x) for x in registry.printed("pan.claim_optimum")["C"]]]
+    assert problem.placement().jobs(printed).status[0] != Status.FEASIBLE
+    longer = Problem.of(values | {"torch_length": 0.45})
+    assert optimum(longer).position[2] < optimum(problem).position[2] - 0.05
+    adaptive = GeneticSettings(mutation="adaptive_feasible")
+    found = evolve(problem.placement(), problem.box, adaptive, np.random.default_rng(17))
+    assert found.reason == "stall"
