@@ -54,7 +54,7 @@ def _grounds(made: dict[str, Any]) -> Iterator[str]:
 def verdict_text(made: dict[str, Any]) -> str:
     """The verdict, with the share of the plausible choices that meet print where it has one."""
     found = made["robustness"]
-    if found is None or made["verdict"] != "reproduced-under-assumption":
+    if found is None or made["decided_by"] or made["verdict"] != "reproduced-under-assumption":
         return made["verdict"]
     return f"{made['verdict']}, {found['meets_print']['share']:.0%}"
 
