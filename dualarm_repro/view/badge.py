@@ -37,7 +37,7 @@ def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> Markup:
     if robustness and known is Verdict.UNDER_ASSUMPTION:
         share = f", {percent(robustness['meets_print']['share'])}"
         low, high = robustness["meets_print"]["interval"]
-        note = f" Print is met in {interval(low, high)} of the plausible choices."
+        note = f". Print is met in {interval(low, high)} of the plausible choices."
     span = Markup('<span class="verdict verdict-{0}" title="{1}">{2} {0}{3}</span>')
     return span.format(known, MEANING[known] + note, SIGN[known], share)
 

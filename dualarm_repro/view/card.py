@@ -189,8 +189,8 @@ def robustness_text(found: dict[str, Any], verdict: str, decided_by: str | None 
     met = found["meets_print"]["share"]
     low, high = found["meets_print"]["interval"]
     text = (
-        f"{share_of(verdict, decided_by).capitalize()} in {percent(met)} of {found['samples']} draws of the "
-        f"assumptions (95 % interval {interval(low, high)}). "
+        f"{share_of(verdict, decided_by).capitalize()} in {percent(met)} of {found['samples']} "
+        f"draws of the assumptions (95 % interval {interval(low, high)}). "
     )
     flip = found["flip"]
     if flip is None:

@@ -14,9 +14,7 @@ _BAR = _WIDTH - _LABEL - 60
 _MOST = 5
 
 
-def firmness_svg(
-    robustness: Mapping[str, Any], verdict: str, decided_by: str | None = None
-) -> str:
+def firmness_svg(robustness: Mapping[str, Any], verdict: str, decided_by: str | None = None) -> str:
     """Inline SVG that follows the colours of the page: one row for the share of draws that meet
     print, or have the properties of what has no original, then one for each assumption with an
     influence beyond chance."""

@@ -18,11 +18,20 @@ from .tally import tally
 #: Side of a cell with its gap [px]: a finger hits it, and fourteen in a row fit a phone.
 PITCH, GAP, ROW = 25, 2, 14
 _HEAD, _AFTER = 19, 7
+#: How a number of items of a kind is called, one and several.
 _KINDS = {
-    Kind.FIGURE: ("figure", "figures"),
-    Kind.TABLE: ("table", "tables"),
-    Kind.EQUATION: ("equation", "equations"),
-    Kind.CLAIM: ("claim", "claims"),
+    "en": {
+        Kind.FIGURE: ("figure", "figures"),
+        Kind.TABLE: ("table", "tables"),
+        Kind.EQUATION: ("equation", "equations"),
+        Kind.CLAIM: ("claim", "claims"),
+    },
+    "zh": {
+        Kind.FIGURE: ("幅图", "幅图"),
+        Kind.TABLE: ("个表", "个表"),
+        Kind.EQUATION: ("个公式", "个公式"),
+        Kind.CLAIM: ("个论断", "个论断"),
+    },
 }
 
 
@@ -50,12 +59,18 @@ class Panel:
     cells: tuple[Cell, ...]
 
 
-def panel(paper: str, title: str, records: Iterable[Mapping[str, Any]], root: str = "") -> Panel:
+def panel(
+    paper: str,
+    title: str,
+    records: Iterable[Mapping[str, Any]],
+    root: str = "",
+    language: str = "en",
+) -> Panel:
     """Lay out the items of a document: kind below kind, in each the same verdicts side by side."""
     made = list(records)
     order = list(Verdict)
     headings, cells, y = [], [], 0
-    for kind, (one, many) in _KINDS.items():
+    for kind, (one, many) in _KINDS[language].items():
         chosen = [m for m in made if m["kind"] == kind]
         if not chosen:
             continue
@@ -69,24 +84,34 @@ def panel(paper: str, title: str, records: Iterable[Mapping[str, Any]], root: st
     return Panel(paper, title, ROW * PITCH - GAP, y, tuple(headings), tuple(cells))
 
 
-def verdict_picture(registry: Registry, root: str = "") -> Page:
+def verdict_picture(registry: Registry, root: str = "", language: str = "en") -> Page:
     """Every item of every document as a cell, and a legend with the number of each verdict.
 
     Parameters
     ----------
     root
         Way from the page up to the top of the book.
+    language
+        ``"en"``, or ``"zh"`` for original titles and no legend, which ``chinese.verdicts_page`` is.
     """
     panels = []
     for paper, file in registry.papers.items():
         records = [record(registry, f"{paper}.{key}") for key in file.items]
-        panels.append(panel(paper, file.document.title, records, root))
+        document = file.document
+        title = document.title if language == "en" else document.title_original or document.title
+        panels.append(panel(paper, title, records, root, language))
     counted = tally(registry)["by_verdict"]
     legend = [(v, counted[v], MEANING[v]) for v in Verdict if counted[v]]
-    side = PITCH - GAP
-    total = len(registry.items)
     return Page(
-        render("verdict_picture", panels=panels, legend=legend, side=side, root=root, total=total)
+        render(
+            "verdict_picture",
+            panels=panels,
+            legend=legend if language == "en" else [],
+            side=PITCH - GAP,
+            root=root,
+            total=len(registry.items),
+            skip="Skip the cells" if language == "en" else "跳过方格",
+        )
     )
 
 

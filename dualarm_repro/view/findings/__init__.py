@@ -1,4 +1,4 @@
-"""What a document was found to show, in plain words that the records of its items fill and support."""
+"""What a document was found to show, in plain words that records of items fill and support."""
 
 from .pages import findings_page, leading_page
 from .support import Told, findings_of, leading, tell
