@@ -113,7 +113,7 @@ def broken_links(pages: Pages, html: Path) -> list[str]:
     for name, soup in pages.items():
         for link in soup.select(".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"):
             address, _, anchor = link["href"].partition("#")
-            path = normpath(join(dirname(name), address))
+            path = normpath(join(dirname(name), address)) if address else f"{name}.html"
             target = path.removesuffix(".html")
             if target not in pages and html.joinpath(path).is_file():
                 continue

@@ -105,6 +105,13 @@ def test_link_of_an_output_must_lead_somewhere(html, new):
     assert check_book.broken_links(pages, html) == [f"toy/page: the link {new} leads nowhere"]
 
 
+def test_link_of_an_output_may_lead_down_its_page(html):
+    pages = change(html, "toy/page.html", "../intro.html#verdict-counts", "#toy.tab01")
+    assert check_book.broken_links(pages, html) == []
+    pages = change(html, "toy/page.html", "#toy.tab01", "#toy.tab02")
+    assert len(check_book.broken_links(pages, html)) == 1
+
+
 def test_link_of_an_output_may_choose_what_the_ledger_shows(html):
     old = "../intro.html#verdict-counts"
     pages = change(html, "toy/page.html", old, "../intro.html#verdict=adopted")
