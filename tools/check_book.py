@@ -22,6 +22,8 @@ MEGABYTE = 1_000_000
 LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 8 * MEGABYTE
 _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
+#: Where verdicts are told in words.
+_VERDICTS = ".ledger-legend, .ledger-line, .ledger-findings"
 
 
 def read_pages(html: Path) -> dict[str, BeautifulSoup]:
@@ -111,11 +113,12 @@ def broken_links(pages: Pages, html: Path) -> list[str]:
     for name, soup in pages.items():
         for link in soup.select(".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"):
             address, _, anchor = link["href"].partition("#")
-            path = normpath(join(dirname(name), address))
+            path = normpath(join(dirname(name), address)) if address else f"{name}.html"
             target = path.removesuffix(".html")
             if target not in pages and html.joinpath(path).is_file():
                 continue
-            if target not in pages or (anchor and anchor not in ids[target]):
+            chosen = "=" in anchor  # what a filter of the ledger is set to
+            if target not in pages or (anchor and not chosen and anchor not in ids[target]):
                 lines.append(f"{name}: the link {link['href']} leads nowhere")
     return lines
 
@@ -152,10 +155,10 @@ def failed_outputs(pages: Pages) -> list[str]:
 
 
 def _said(output: Any) -> str:
-    """Text of an output but for the legend of the verdicts, one of which says "not found"."""
+    """Text of an output but for verdicts in words, one of which says "not found"."""
     text = output.get_text()
-    for legend in output.select(".ledger-legend"):
-        text = text.replace(legend.get_text(), "")
+    for verdicts in output.select(_VERDICTS):
+        text = text.replace(verdicts.get_text(), "")
     return text
 
 

@@ -116,7 +116,7 @@ def page_key(page: Path) -> str:
     parts += [to_json(record(registry, item_id), indent=None) for item_id in shown]
     parts += [to_json(pictures(registry, i), indent=None) for i in items if i in registry.items]
     read = [data_path(folder).glob("*.yaml") for folder in ("robots", "scenes")]
-    read += [TEMPLATES.glob("*.html"), TEMPLATES.parent.glob("*.yaml")]
+    read += [TEMPLATES.glob("*.html"), TEMPLATES.parent.rglob("*.yaml")]
     parts += [hash_file(p) for paths in read for p in sorted(paths)]
     return sha256("\0".join(parts).encode()).hexdigest()
 

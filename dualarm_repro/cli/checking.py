@@ -95,7 +95,7 @@ def robustness(
     else:
         from ..view.terminal import robustness_line
 
-        print(f"{item_id}: {robustness_line(found, made['verdict'])}")
+        print(f"{item_id}: {robustness_line({**made, 'robustness': found, 'draws': 'none'})}")
 
 
 @examples(

@@ -37,18 +37,30 @@ def badge(verdict: str, robustness: Mapping[str, Any] | None = None) -> Markup:
     if robustness and known is Verdict.UNDER_ASSUMPTION:
         share = f", {percent(robustness['meets_print']['share'])}"
         low, high = robustness["meets_print"]["interval"]
-        note = f" Print is met in {interval(low, high)} of the plausible choices."
+        note = f". Print is met in {interval(low, high)} of the plausible choices."
     span = Markup('<span class="verdict verdict-{0}" title="{1}">{2} {0}{3}</span>')
     return span.format(known, MEANING[known] + note, SIGN[known], share)
 
 
-def percent(share: float) -> str:
-    """A share as a percentage that says 0 or 100 only where it is exactly that."""
-    if 0.0 < share < 0.01:
-        return "< 1 %"
-    if 0.99 < share < 1.0:
-        return "> 99 %"
-    return f"{100 * share:.0f} %"
+def badge_of(made: Mapping[str, Any]) -> Markup:
+    """Badge of a record; with the share of its own draws only where these decide the verdict."""
+    return badge(made["verdict"], None if made["decided_by"] else made["robustness"])
+
+
+def percent(share: float, digits: int = 0) -> str:
+    """A share as a percentage that says 0 or 100 only where it is exactly that.
+
+    Parameters
+    ----------
+    digits
+        Decimals of the percentage.
+    """
+    least = 0.01 / 10**digits
+    if 0.0 < share < least:
+        return f"< {100 * least:.{digits}f} %"
+    if 1.0 - least < share < 1.0:
+        return f"> {100 * (1.0 - least):.{digits}f} %"
+    return f"{100 * share:.{digits}f} %"
 
 
 def interval(low: float, high: float) -> str:

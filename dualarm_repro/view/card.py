@@ -108,6 +108,7 @@ def card_html(
         Name of a format to the citation.
     """
     found, verdict, code = made["robustness"], made["verdict"], made["code"]
+    decider = made["decided_by"]
     proved = sum(1 for one in made["errata"] if one["proof"] and one["proof"]["holds"])
     source = source_of(code) if code else None
     return render(
@@ -118,8 +119,8 @@ def card_html(
         rows=assumption_rows(made),
         context=context_rows(made),
         witnesses=[_witness(entry) for entry in made["witnesses"]],
-        robustness=robustness_text(found, verdict) if found else None,
-        firmness=Markup(firmness_svg(found, verdict)) if found else None,
+        robustness=robustness_text(found, verdict, decider) if found else None,
+        firmness=Markup(firmness_svg(found, verdict, decider)) if found else None,
         sought=search_lines(made),
         proved=f", {proved} proved by computation" if proved else "",
         code=_code(code, root),
@@ -183,13 +184,13 @@ def card_figure(made: dict[str, Any]) -> Any:
     return figure
 
 
-def robustness_text(found: dict[str, Any], verdict: str) -> str:
+def robustness_text(found: dict[str, Any], verdict: str, decided_by: str | None = None) -> str:
     """Robustness of a verdict in one sentence or two."""
     met = found["meets_print"]["share"]
     low, high = found["meets_print"]["interval"]
     text = (
-        f"{share_of(verdict).capitalize()} in {percent(met)} of {found['samples']} draws of the "
-        f"assumptions (95 % interval {interval(low, high)}). "
+        f"{share_of(verdict, decided_by).capitalize()} in {percent(met)} of {found['samples']} "
+        f"draws of the assumptions (95 % interval {interval(low, high)}). "
     )
     flip = found["flip"]
     if flip is None:

@@ -14,12 +14,12 @@ _BAR = _WIDTH - _LABEL - 60
 _MOST = 5
 
 
-def firmness_svg(robustness: Mapping[str, Any], verdict: str) -> str:
+def firmness_svg(robustness: Mapping[str, Any], verdict: str, decided_by: str | None = None) -> str:
     """Inline SVG that follows the colours of the page: one row for the share of draws that meet
-    print, or have the properties of what is ``regenerated``, then one for each assumption with an
+    print, or have the properties of what has no original, then one for each assumption with an
     influence beyond chance."""
-    met = robustness["meets_print"]
-    rows = [_row(0, share_of(verdict), met["share"], met["interval"], "#0072B2")]
+    met, counted = robustness["meets_print"], share_of(verdict, decided_by)
+    rows = [_row(0, counted, met["share"], met["interval"], "#0072B2")]
     shown = list(robustness["influence"].items())[:_MOST]
     rows += [
         _row(k, name.replace("_", " "), index, None, "#E69F00")
@@ -27,7 +27,7 @@ def firmness_svg(robustness: Mapping[str, Any], verdict: str) -> str:
     ]
     height = _ROW * len(rows) + 4
     draws = f"{100 * met['share']:.0f} % of {robustness['samples']} draws"
-    text = f"{share_of(verdict).capitalize()} in {draws}"
+    text = f"{counted.capitalize()} in {draws}"
     if shown:
         named = ", ".join(f"{name} {index:.2f}" for name, index in shown)
         text += f"; first-order influence: {named}"

@@ -5,16 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import yaml
 
-from ..errors import LedgerError
-from .badge import percent
-from .numbers import number, words
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
+from .sentences import fill
 
 _FILE = Path(__file__).with_name("lines.yaml")
 
@@ -32,29 +27,16 @@ def line(made: Mapping[str, Any], which: str) -> str | None:
         return None
     if which == "obtained" and "{" not in text and not all(c["holds"] for c in made["checks"]):
         return None
-    from jinja2 import TemplateError
-
-    try:
-        filled = _environment().from_string(text).render(
-            printed=made["printed"], obtained=made["obtained"], robustness=made["robustness"]
-        )  # fmt: skip
-    except TemplateError as error:
-        raise LedgerError(f"{_FILE.name}, {made['id']}: {error}") from None
-    return " ".join(filled.split())
+    return fill(
+        text,
+        f"{_FILE.name}, {made['id']}",
+        printed=made["printed"],
+        obtained=made["obtained"],
+        robustness=made["robustness"],
+    )
 
 
 @cache
 def _worded() -> dict[str, dict[str, str]]:
     loaded: dict[str, dict[str, str]] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
     return loaded
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import Environment, StrictUndefined
-
-    made = Environment(undefined=StrictUndefined)
-    made.filters["percent"] = percent
-    made.filters["words"] = words
-    made.filters["number"] = number
-    return made

@@ -9,7 +9,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from .badge import badge
+from .badge import badge, badge_of
 from .wording import short
 
 # One file for each kind of output: heads and cards of items, pages of the ledger.
@@ -17,7 +17,8 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
 def render(name: str, **values: Any) -> Markup:
-    """The template ``<name>.html`` filled with values; it also knows ``badge`` and ``short``."""
+    """The template ``<name>.html`` filled with values; it also knows ``badge``, ``badge_of`` and
+    ``short``."""
     return Markup(_environment().get_template(f"{name}.html").render(values))
 
 
@@ -31,5 +32,6 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     made.globals["badge"] = badge
+    made.globals["badge_of"] = badge_of
     made.filters["short"] = short
     return made

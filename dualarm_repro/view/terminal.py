@@ -46,7 +46,7 @@ def describe(made: dict[str, Any]) -> Iterator[str]:
         yield f"  measured: {name} = {short(value)}"
     yield from _grounds(made)
     if "changed" not in made:
-        line = robustness_line(made["robustness"], made["verdict"] or "", made["draws"])
+        line = robustness_line(made)
         yield f"  robustness: {line}"
     yield from (f"  {line}" for line in place_lines(made))
 
@@ -115,7 +115,7 @@ def verdict_text(made: dict[str, Any]) -> str:
     found = made["robustness"]
     if made["verdict"] is None:
         return "not available"
-    if found is None or made["verdict"] != "reproduced-under-assumption":
+    if found is None or made["decided_by"] or made["verdict"] != "reproduced-under-assumption":
         return str(made["verdict"])
     return f"{made['verdict']}, {percent(found['meets_print']['share'])}"
 
@@ -125,13 +125,14 @@ def verdict_style(verdict: str | None) -> str:
     return _STYLES.get(verdict or "", "dim")
 
 
-def robustness_line(found: dict[str, Any] | None, verdict: str, draws: str = "none") -> str:
+def robustness_line(made: dict[str, Any]) -> str:
     """Share of the draws that meet print, what it hangs on and what flips it."""
+    found, draws = made["robustness"], made["draws"]
     if found is None:
         return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
     low, high = found["meets_print"]["interval"]
     text = (
-        f"{share_of(verdict)} in {found['meets_print']['share']:.1%} of {found['samples']} draws "
+        f"{share_of(made['verdict'], made['decided_by'])} in {found['meets_print']['share']:.1%} of {found['samples']} draws "
         f"({low:.1%}-{high:.1%})"
     )
     if found["influence"]:

@@ -113,7 +113,7 @@ def _value(entry: dict[str, Any]) -> str:
 
 def _firmness(made: dict[str, Any]) -> Iterator[str]:
     if "changed" not in made:
-        yield robustness_line(made["robustness"], made["verdict"] or "", made["draws"])
+        yield robustness_line(made)
     for entry in made["witnesses"]:
         values = short(entry["values"]) if entry["values"] else "the values as declared"
         yield f"witness ({entry['choice']}): {entry['verdict']} with {values}"

@@ -74,7 +74,7 @@ def verdict_line(made: Mapping[str, Any]) -> str:
     low, high = found["meets_print"]["interval"]
     if verdict is Verdict.UNDER_ASSUMPTION and made["witnesses"]:
         text += ", by a stored witness"
-    what = "its properties hold" if verdict is Verdict.REGENERATED else "print is met"
+    what = share_of(verdict, made["decided_by"]).replace("the properties", "its properties")
     return (
         f"{text}; {what} in {share} of {found['samples']} plausible choices of what is not "
         f"printed (95 % interval {interval(low, high)})"
@@ -95,9 +95,16 @@ def meaning(verdict: str) -> str:
     return MEANING[Verdict(verdict)]
 
 
-def share_of(verdict: str) -> str:
-    """What the share of the draws counts: what has no original meets no print."""
-    return "the properties hold" if verdict == "regenerated" else "print is met"
+def share_of(verdict: str, decided_by: str | None = None) -> str:
+    """What the share of the draws counts: what has no original meets no print.
+
+    Parameters
+    ----------
+    decided_by
+        The statement that gives an item without an original its verdict.
+    """
+    no_original = decided_by is not None or verdict == Verdict.REGENERATED
+    return "the properties hold" if no_original else "print is met"
 
 
 def search_lines(made: Mapping[str, Any]) -> list[str]:

@@ -105,6 +105,29 @@ def test_link_of_an_output_must_lead_somewhere(html, new):
     assert check_book.broken_links(pages, html) == [f"toy/page: the link {new} leads nowhere"]
 
 
+def test_link_of_an_output_may_lead_down_its_page(html):
+    pages = change(html, "toy/page.html", "../intro.html#verdict-counts", "#toy.tab01")
+    assert check_book.broken_links(pages, html) == []
+    pages = change(html, "toy/page.html", "#toy.tab01", "#toy.tab02")
+    assert len(check_book.broken_links(pages, html)) == 1
+
+
+def test_link_of_an_output_may_choose_what_the_ledger_shows(html):
+    old = "../intro.html#verdict-counts"
+    pages = change(html, "toy/page.html", old, "../intro.html#verdict=adopted")
+    assert check_book.broken_links(pages, html) == []
+    pages = change(html, "toy/page.html", "../intro.html#", "../nowhere.html#")
+    assert len(check_book.broken_links(pages, html)) == 1
+
+
+@pytest.mark.parametrize("name", ["ledger-legend", "ledger-line", "ledger-findings"])
+def test_a_verdict_in_words_is_no_failure(html, name):
+    told = f'<pre>2.784</pre><p class="{name}">not found: no choice</p>'
+    assert check_book.failed_outputs(change(html, "toy/page.html", "<pre>2.784</pre>", told)) == []
+    pages = change(html, "toy/page.html", name, "elsewhere")
+    assert len(check_book.failed_outputs(pages)) == 1
+
+
 def test_link_of_an_output_may_lead_to_a_file(html):
     pages = change(html, "toy/page.html", "../intro.html#verdict-counts", "../_static/all.zip")
     assert check_book.broken_links(pages, html) == [

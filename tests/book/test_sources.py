@@ -9,6 +9,8 @@ import pytest
 import yaml
 from pybtex.database import parse_file
 
+from dualarm_repro.view.chinese import words
+
 ROOT = Path(__file__).parents[2]
 BOOK = ROOT / "book"
 SHOW = re.compile(r"^show\(([^)]*)\)", re.MULTILINE)
@@ -31,6 +33,26 @@ def test_every_item_is_shown_once_on_the_page_it_declares(registry):
 def test_every_page_is_in_the_table_of_contents():
     pages = {str(path.relative_to(BOOK).with_suffix("")) for path in BOOK.rglob("*.md")}
     assert pages == set(prerun.toc_pages(BOOK))
+
+
+def test_every_part_opens_with_a_chinese_summary(registry):
+    """The first page of a part, and that of each document; one without words has none yet."""
+    contents = yaml.safe_load((BOOK / "_toc.yml").read_text(encoding="utf-8"))
+    first = {part["chapters"][0]["file"] for part in contents["parts"]}
+    first |= {f"{name}/index" for name in registry.papers if name in words().parts}
+    assert len(first) >= len(contents["parts"])
+    for page in first:
+        text = (BOOK / f"{page}.md").read_text(encoding="utf-8")
+        called = re.findall(r'^summary_page\("(\w+)"', text, re.MULTILINE)
+        assert len(called) == 1, page
+        assert called[0] in words().parts
+        before = text[: text.index("summary_page(")]
+        assert "\n## " not in before, f"{page}: the summary stands at the head"
+
+
+@pytest.mark.parametrize("term", ["双臂", "虚拟吸引点", "可操作度", "避障", "凸包", "势场"])
+def test_the_chinese_entry_has_the_words_one_searches_for(term):
+    assert term in (BOOK / "zh.md").read_text(encoding="utf-8")
 
 
 def test_every_document_has_a_page_and_a_reference(registry):

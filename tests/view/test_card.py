@@ -6,12 +6,12 @@ import pytest
 from bs4 import BeautifulSoup
 
 from dualarm_repro.ledger import record
-from dualarm_repro.view.badge import badge, percent
+from dualarm_repro.view.badge import badge, badge_of, percent
 from dualarm_repro.view.card import card_html, robustness_text
 from dualarm_repro.view.firmness import firmness_svg
-from dualarm_repro.view.wording import search_lines
+from dualarm_repro.view.wording import search_lines, verdict_line
 
-from .full_record import POSSIBLE, ROBUST
+from .full_record import FULL, POSSIBLE, ROBUST
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +25,25 @@ def test_badge_shows_the_share_of_what_is_only_possible():
     assert "1 to 16 %" in text
     assert "%" not in badge("not-reproduced", ROBUST).split(">", 1)[1]
     assert "%" not in badge("reproduced-under-assumption")
+
+
+def test_a_share_of_properties_is_no_share_of_print():
+    decided = {**FULL, "robustness": ROBUST, "decided_by": "toy.claim"}
+    assert "%" not in badge_of(decided).split(">", 1)[1]
+    assert "5 %" in badge_of({**decided, "decided_by": None})
+    for told in (
+        robustness_text(ROBUST, POSSIBLE, "toy.claim"),
+        firmness_svg(ROBUST, POSSIBLE, "toy.claim"),
+        verdict_line(decided),
+    ):
+        assert "properties hold" in told
+        assert "rint is met" not in told
+
+
+def test_percent_with_decimals():
+    assert [percent(x, 1) for x in (0.042, 0.0004, 0.9996, 0.0)] == [
+        "4.2 %", "< 0.1 %", "> 99.9 %", "0.0 %"
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -87,5 +106,12 @@ def test_card_shows_witnesses_thresholds_and_the_statement_that_decides(made):
     changed = {**made, "robustness": ROBUST, "witnesses": [witness], "decided_by": "toy.claim",
                "thresholds": {"limit": {"value": 0.5, "reason": "half <"}}}  # fmt: skip
     text = BeautifulSoup(card_html(changed), "html.parser").get_text(" ")
-    for words in ("draw 4", "width: 2", "toy.claim", "limit", "half <", "Print is met in 5 %"):
+    for words in (
+        "draw 4",
+        "width: 2",
+        "toy.claim",
+        "limit",
+        "half <",
+        "The properties hold in 5 %",
+    ):
         assert words in " ".join(text.split()), words

@@ -51,7 +51,7 @@ def test_words_of_a_line_stay_apart():
     text = " ".join(parsed(laid_out(FULL)).get_text().split())
     for words in (
         "toy.x a < b (claim",
-        "< 1 % possible",
+        "reproduced-under-assumption possible",
         "<w> & (assumed; width) 1 m",
         "toy.claim.",
     ):
