@@ -131,10 +131,8 @@ def robustness_line(made: dict[str, Any]) -> str:
     if found is None:
         return "no assumption with another plausible value" if draws == "none" else f"draws {draws}"
     low, high = found["meets_print"]["interval"]
-    text = (
-        f"{share_of(made['verdict'], made['decided_by'])} in {found['meets_print']['share']:.1%} of {found['samples']} draws "
-        f"({low:.1%}-{high:.1%})"
-    )
+    what, share = share_of(made["verdict"], made["decided_by"]), found["meets_print"]["share"]
+    text = f"{what} in {share:.1%} of {found['samples']} draws ({low:.1%}-{high:.1%})"
     if found["influence"]:
         name, index = next(iter(found["influence"].items()))
         text += f"; most influential: {name} ({index:.2f})"
