@@ -37,9 +37,16 @@ def printed_rows(made: dict[str, Any]) -> list[Row]:
 def check_rows(made: dict[str, Any]) -> list[Row]:
     """Each rule: what it expects, what it found, and how it ended."""
     return [
-        Row(check["label"], short(check["expected"]), short(check["obtained"]), check["outcome"])
+        Row(check["label"], yes_no(check["expected"]), yes_no(check["obtained"]), check["outcome"])
         for check in made["checks"]
     ]
+
+
+def yes_no(value: Any) -> str:
+    """A value on one line, true and false as words."""
+    return {"True": "yes", "False": "no", "true": "yes", "false": "no"}.get(
+        text := short(value), text
+    )
 
 
 def _rows(printed: Any, obtained: Any, path: tuple[str, ...]) -> Iterator[Row]:
@@ -54,7 +61,7 @@ def _rows(printed: Any, obtained: Any, path: tuple[str, ...]) -> Iterator[Row]:
     else:
         flat = ", ".join(printed) if isinstance(printed, list) else printed
         same = not (obtained is None or isinstance(obtained, dict))
-        yield Row(", ".join(_words(path)), flat, short(obtained).strip("()") if same else "")
+        yield Row(", ".join(_words(path)), flat, yes_no(obtained).strip("()") if same else "")
 
 
 def _below(obtained: Any, key: str | int) -> Any:
