@@ -198,10 +198,17 @@ def test_cloud_page_holds_a_scene(irb120, rng):
 def test_document_pages(registry, monkeypatch):
     def bare_record(registry, item_id):
         item = registry.item(item_id)
-        texts = {"pending": item.pending, "caption": "<b>", "verdict": "undecidable"}
-        texts |= {"robustness": None, "url": f"{registry.checkers[item_id].page}.html#{item_id}"}
+        page = registry.checkers[item_id].page
+        texts = {"pending": "<b>", "caption": None, "verdict": "undecidable", "obtained": None}
+        texts |= {"robustness": None, "decided_by": None, "change": None, "checks": []}
+        texts |= {
+            "page": page,
+            "url": f"{page}.html#{item_id}",
+            "printed": item.printed,
+            "unit": item.unit,
+        }
         return texts | {"id": item_id, "paper": item_id.partition(".")[0], "kind": item.kind,
-                        "title": item.title, "place": item.place}  # fmt: skip
+                        "title": item.title, "place": item.place, "witnesses": []}  # fmt: skip
 
     def bare_erratum(registry, erratum_id):
         proof = (
@@ -215,7 +222,7 @@ def test_document_pages(registry, monkeypatch):
     monkeypatch.setattr(document, "erratum_record", bare_erratum)
     for name, paper in registry.papers.items():
         assert document.document_page(registry, name).html.count("<dt>") >= 3
-        assert document.items_page(registry, name).html.count("<tr data-") == len(paper.items)
+        assert document.items_page(registry, name).html.count("<details ") == len(paper.items)
         errata = document.errata_page(registry, name).html
         assert errata.count("<li id=") == len(paper.errata)
         if "No machine proof" in errata:  # what is proved comes first
