@@ -74,9 +74,9 @@ def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
     for name, shape in _solids(plan):
         if isinstance(shape, Box):
             pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
-            made.add_box(name, shape.size, pose, _OBSTACLE)
+            made.add_box(name, shape.size, pose, _OBSTACLE, solid=True)
         elif isinstance(shape, Sphere):
-            made.add_sphere(name, shape.center, shape.radius, _OBSTACLE)
+            made.add_sphere(name, shape.center, shape.radius, _OBSTACLE, solid=True)
     for name, color in arms.items():
         one = plan.plans[name]
         made.add_arm(name, one.placed.arm, one.path[0], one.placed.placement, color)
