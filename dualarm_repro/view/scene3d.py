@@ -159,7 +159,7 @@ class Scene3D:
 
     def _figure(self) -> Any:
         made = self.contents
-        if made.nearest is None and self._arms:
+        if made.nearest is None and self._arms and (made.motion or self._solids):
             motion = made.motion
             count = len(motion.frames) if motion else 1
             paths = {

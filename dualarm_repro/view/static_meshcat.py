@@ -1,4 +1,4 @@
-"""The viewer of the 3-D scenes: the script of the installed meshcat package, which holds three.js."""
+"""The viewer of the 3-D scenes: the script of the meshcat package, which holds three.js."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from ..welding import ROBOTS, Cell
 from ..welding.separation import Separation
 from .ellipsoids import ROBOT_COLORS
 from .scene3d import Scene3D
-from .scenes.contents import Mark, Part
+from .scenes.contents import Part
 from .scenes.nearest import Nearest, nearest_of
 from .style import ORANGE
 
@@ -40,6 +40,7 @@ def job_scene(
     """
     made = Scene3D(title, camera=(0.7, -3.2, 2.0))
     made.contents.floor = cell.floor
+    made.contents.note = "Bars beside the bases: manipulability."
     closed = np.concatenate([q, q[:, :1]], axis=1)
     arms = {}
     for k, (name, color) in enumerate(zip(ROBOTS, ROBOT_COLORS, strict=True)):
@@ -56,7 +57,6 @@ def job_scene(
         heights = (w[k] / full_scale)[frames]
         made.move(bar, np.array([_bar_pose(cell.bases[k], share) for share in heights]))
         made.contents.parts.append(Part(bar, "box", (_BAR, _BAR, _FULL), color))
-        made.contents.marks.append(Mark("w", bar, np.array([0.0, 0.0, 0.5 * _FULL])))
     made.contents.nearest = _nearest(cell, q, centre, frames)
     return made
 

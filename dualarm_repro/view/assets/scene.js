@@ -87,16 +87,16 @@
     const curve = new T.CatmullRomCurve3(kept, false, "centripetal");
     return new T.TubeGeometry(curve, Math.min(400, 4 * kept.length), radius, 6);
   }
-  function shape(T, part, extent) {
-    const points = part.v && whole(part.v, part.r);
+  function shape(T, part, mesh, extent) {
+    const points = mesh && whole(mesh.v, mesh.r);
     if (part.k === "tapered") return lathe(T, taperedProfile(...part.s));
     if (part.k === "rod") return lathe(T, rodProfile(...part.s));
     if (part.k === "box") return new T.BoxGeometry(...part.s);
     if (part.k === "line") return tube(T, points, 0.0018 * extent);
     const made = new T.BufferGeometry();
     made.setAttribute("position", new T.BufferAttribute(points, 3));
-    if (part.f) {
-      made.setIndex(new T.BufferAttribute(new Uint16Array(bytes(part.f)), 1));
+    if (mesh.f) {
+      made.setIndex(new T.BufferAttribute(new Uint16Array(bytes(mesh.f)), 1));
       made.computeVertexNormals();
     }
     return made;
@@ -125,6 +125,7 @@
       this.box.append(this.canvas);
       this.figure.classList.add("live");
       this.marks = [...figure.querySelectorAll(".scene-marks span")];
+      this.still = this.marks.map((span) => span.style.cssText);
       this.gap = el("span", { class: "scene-gap" });
       figure.querySelector(".scene-marks").append(this.gap);
       this.controls();
@@ -163,7 +164,7 @@
       }
     }
     add(part, checked = false) {
-      const { T } = this, geometry = shape(T, part, this.extent), opacity = part.o ?? 1;
+      const { T } = this, geometry = shape(T, part, this.data.meshes[part.m], this.extent), opacity = part.o ?? 1;
       let made;
       if (part.k === "points") {
         const size = Math.max(part.s[0], 0.006 * this.extent);
@@ -265,6 +266,7 @@
       this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
       this.renderer.setSize(width, height, false);
       this.renderer.render(this.world, this.camera);
+      this.taken = [];
       data.marks.forEach(([, node, ...point], k) => {
         this.nodes[node].updateMatrixWorld();
         this.place(this.marks[k], new T.Vector3(...point).applyMatrix4(this.nodes[node].matrixWorld));
@@ -303,8 +305,16 @@
     }
     place(span, point) {
       const seen = point.clone().project(this.camera);
-      span.style.left = `${50 * (1 + seen.x)}%`;
-      span.style.top = `${50 * (1 - seen.y)}%`;
+      /* A name that would cover another one stands lower. */
+      const { clientWidth: wide, clientHeight: high } = this.box, half = span.offsetWidth / 2, line = 18;
+      const x = (wide * (1 + seen.x)) / 2;
+      let y = (high * (1 - seen.y)) / 2;
+      if (span !== this.gap) {
+        while (this.taken.some(([a, b, c]) => Math.abs(x - a) < half + b && Math.abs(y - c) < line)) y += line / 2;
+        this.taken.push([x, half, y]);
+      }
+      span.style.left = `${x}px`;
+      span.style.top = `${y}px`;
       span.hidden = Math.abs(seen.x) > 1 || Math.abs(seen.y) > 1 || seen.z > 1;
     }
     told(at) {
@@ -423,7 +433,7 @@
           ArrowLeft: () => this.rotate(-0.1, 0), ArrowRight: () => this.rotate(0.1, 0),
           ArrowUp: () => this.rotate(0, 0.1), ArrowDown: () => this.rotate(0, -0.1),
           "+": () => this.zoom(0.85), "=": () => this.zoom(0.85), "-": () => this.zoom(1.18),
-          Home: () => this.home(), " ": () => this.play(!this.playing), Escape: () => this.figure.querySelector("button")?.focus(),
+          Home: () => this.home(), " ": () => this.play(!this.playing),
         }[event.key];
         if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
         event.preventDefault();
@@ -447,6 +457,7 @@
       this.renderer.dispose();
       this.renderer.forceContextLoss();
       this.canvas.remove();
+      this.marks.forEach((span, k) => (span.style.cssText = this.still[k]));
       this.bar.remove();
       this.gap.remove();
       this.figure.classList.remove("live");

@@ -42,15 +42,15 @@ def arm_parts(name: str, arm: Arm, color: str, opacity: float, base: str) -> Ite
         if room is None:
             continue
         carrier, place, radius = room
-        size = (_BARREL * radius, 2.0 * _HALF * radius)
-        yield Part(nodes[carrier], "rod", size, dark, place, opacity, f"{name}:{carrier}")
+        barrel = (_BARREL * radius, 2.0 * _HALF * radius)
+        yield Part(nodes[carrier], "rod", barrel, dark, place, opacity, f"{name}:{carrier}")
     flange = arm.model.frames[arm.flange_id]
     last = [c.geometry.radius for c in capsules if c.parentJoint == flange.parentJoint]
     if last and opacity == 1.0:
         thick = 0.25 * min(last)
         place = flange.placement * pin.SE3(np.eye(3), np.array([0.0, 0.0, -0.5 * thick]))
-        size = (0.62 * min(last), thick)
-        yield Part(nodes[flange.parentJoint], "rod", size, FOOT, place.homogeneous, opacity)
+        disc = (0.62 * min(last), thick)
+        yield Part(nodes[flange.parentJoint], "rod", disc, FOOT, place.homogeneous, opacity)
 
 
 def checked_parts(name: str, arm: Arm, color: str, base: str) -> Iterator[Part]:

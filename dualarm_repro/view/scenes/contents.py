@@ -71,6 +71,10 @@ class Contents:
         The capsules that distances are computed with, shown on demand.
     tips : dict of ndarray (N, 3)
         Way of the flange of each arm that moves [m].
+    columns : bool
+        Whether an arm stands on a column, of which nothing is known but that it reaches the floor.
+    note : str
+        What else a reader has to know to read the picture.
     """
 
     title: str
@@ -84,6 +88,8 @@ class Contents:
     motion: Motion | None = None
     nearest: Any = None
     floor: float | None = None
+    columns: bool = False
+    note: str = ""
 
     def pose(self, node: str, frame: int | None = None) -> np.ndarray:
         """Pose (4, 4) of a node at a key frame, counted from zero; None: before any motion."""

@@ -1,4 +1,4 @@
-"""What every scene gets at the end: feet, floor, trails of the flanges, and a camera that sees all."""
+"""What every scene gets at the end: feet, floor, trails of the flanges, a camera that sees all."""
 
 from __future__ import annotations
 
@@ -89,7 +89,9 @@ def _named(mark: Mark, place: np.ndarray, near: float) -> bool:
 def _floor(made: Contents, arms: list[tuple[PlacedArm, np.ndarray]], points: np.ndarray) -> float:
     if made.floor is not None:
         return made.floor
-    feet = [placed.placement.translation[2] + f[0] for placed, _ in arms if (f := _foot(made, placed))]
+    feet = [
+        placed.placement.translation[2] + f[0] for placed, _ in arms if (f := _foot(made, placed))
+    ]
     return float(min([*feet, points[:, 2].min()]))
 
 
@@ -103,6 +105,7 @@ def _add_foot(made: Contents, placed: PlacedArm, height: float) -> None:
     gap = max(placed.placement.translation[2] + low - height, 0.0)
     plate, top = _PLATE * radius, low + (0.0 if meshes else _COLLAR * radius)
     bottom = low - gap
+    made.columns |= gap > radius
     for size, middle in (
         ((1.3 * radius, plate), bottom - 0.5 * plate),
         ((0.8 * radius, top - bottom), 0.5 * (top + bottom)),
@@ -115,7 +118,7 @@ def _add_foot(made: Contents, placed: PlacedArm, height: float) -> None:
 
 
 def _foot(made: Contents, placed: PlacedArm) -> tuple[float, float] | None:
-    """Where an upright arm begins above its base, and its radius there; a mesh begins at the base."""
+    """Where an upright arm begins above its base (a mesh: at the base), and its radius there."""
     found = foot(placed.arm) if placed.placement.rotation[2, 2] > 0.99 else None
     return (0.0, found[1]) if found and _has_meshes(made, placed) else found
 

@@ -1,13 +1,13 @@
-"""HTML of a scene: the still picture with its names, and what the viewer needs to bring it to life."""
+"""HTML of a scene: the still picture with its names, and what the viewer needs to move it."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 from markupsafe import Markup
 
+from ..assets import ASSETS
 from ..static_meshcat import viewer_script
 from .camera import Camera
 from .contents import Contents
@@ -15,10 +15,8 @@ from .floor import Floor
 from .packed import packed
 from .still import SIZE, still
 
-#: Script and style of scenes, beside this room and below ``_static`` of a built book.
-SCRIPT, STYLE = "scenes/scene.js", "scenes/scene.css"
-ASSETS = Path(__file__).resolve().parents[1] / "assets"
-
+#: Half the width of a letter and the height of a line of a name, in per cent of the picture.
+_LETTER, _LINE = 0.5, 4.6
 _FIGURE = Markup(
     '<figure class="ledger-scene" data-moves="{moves}"><div class="scene-box">'
     '<img class="scene-still" alt="{title}" width="{width}" height="{height}" src="{picture}">'
@@ -36,7 +34,7 @@ _ALONE = Markup(
 
 
 def figure(contents: Contents, camera: Camera, floor: Floor | None) -> Markup:
-    """The scene for a page that knows :data:`SCRIPT` and :data:`STYLE`."""
+    """The scene for a page that loads its script and style, see :mod:`..assets`."""
     frame = shown_frame(contents)
     ghosts = [] if contents.motion is None else [0, len(contents.motion.frames) - 1]
     picture = still(contents, camera, floor, frame, [g for g in ghosts if g != frame])
@@ -73,11 +71,18 @@ def shown_frame(contents: Contents) -> int | None:
     return len(contents.motion.frames) // 2
 
 
-def _marks(contents: Contents, camera: Camera, frame: int | None) -> Any:
+def _marks(contents: Contents, camera: Camera, frame: int | None) -> Iterator[Markup]:
+    """Names at their places in per cent; one that would cover another stands lower."""
+    taken: list[tuple[float, float, float]] = []
     for mark in contents.marks:
         pose = contents.pose(mark.node, frame)
         x, y, _ = camera.project(pose[:3, :3] @ mark.point + pose[:3, 3])
-        yield _MARK.format(50.0 * (1.0 + x), 50.0 * (1.0 - y), mark.text)
+        left, top = 50.0 * (1.0 + float(x)), 50.0 * (1.0 - float(y))
+        half = _LETTER * (len(mark.text) + 1)
+        while any(abs(left - a) < half + b and abs(top - c) < _LINE for a, b, c in taken):
+            top += 0.5 * _LINE
+        taken.append((left, half, top))
+        yield _MARK.format(left, top, mark.text)
 
 
 def _told(contents: Contents, frame: int | None, floor: Floor | None) -> str:
@@ -99,4 +104,7 @@ def _told(contents: Contents, frame: int | None, floor: Floor | None) -> str:
     text = f"{text[0].upper()}{text[1:]}. " if text else ""
     if contents.motion is not None:
         text += "Faint: first and last posture. "
+    text += f"{contents.note} " if contents.note else ""
+    if contents.columns:
+        text += "Grey columns: the height of the bases is not known. "
     return text + (f"Cells of the floor: {floor.cell:g} m." if floor else "")

@@ -49,14 +49,16 @@ def nearest_pairs(
 
 
 def nearest_of(
-    distance: np.ndarray, point_a: np.ndarray, point_b: np.ndarray, pairs: Sequence[tuple[Body, Body]]
+    distance: np.ndarray,
+    point_a: np.ndarray,
+    point_b: np.ndarray,
+    pairs: Sequence[tuple[Body, Body]],
 ) -> Nearest:
-    """The smallest of the distances (F, P) of P pairs, with the points (F, P, 3) that attain them."""
-    frames, best = np.arange(len(distance)), distance.argmin(axis=1)
+    """The smallest of the distances (F, P) of P pairs, which the points (F, P, 3) attain."""
+    frames, best = np.arange(len(distance)), distance.argmin(axis=1).tolist()
     ends = np.stack([point_a[frames, best], point_b[frames, best]], axis=1)
     contacts = [
-        {body_id(body) for k in np.flatnonzero(row <= 0.0) for body in pairs[k]}
-        for row in distance
+        {body_id(body) for k in np.flatnonzero(row <= 0.0) for body in pairs[k]} for row in distance
     ]
     names = [(in_words(pairs[k][0]), in_words(pairs[k][1])) for k in best]
     return Nearest(distance[frames, best], ends, names, contacts)

@@ -21,6 +21,7 @@ def packed(contents: Contents, camera: Camera, floor: Floor | None) -> str:
     names = list(contents.nodes)
     body_names = sorted({part.body for part in contents.parts if part.body})
     index = {name: k for k, name in enumerate(body_names)}
+    meshes: list[dict[str, Any]] = []
     made: dict[str, Any] = {
         "title": contents.title,
         "eye": _short(camera.eye),
@@ -28,8 +29,9 @@ def packed(contents: Contents, camera: Camera, floor: Floor | None) -> str:
         "field": round(float(np.rad2deg(FIELD)), 2),
         "floor": floor and [floor.height, floor.cell, *floor.low, *floor.high],
         "nodes": [_pose(contents.nodes[name]) for name in names],
-        "parts": [_part(part, names, index) for part in contents.parts],
-        "checked": [_part(part, names, index) for part in contents.checked],
+        "parts": [_part(part, names, index, meshes) for part in contents.parts],
+        "checked": [_part(part, names, index, meshes) for part in contents.checked],
+        "meshes": meshes,
         "marks": [[m.text, names.index(m.node), *_short(m.point)] for m in contents.marks],
     }
     if contents.motion:
@@ -58,7 +60,10 @@ def packed(contents: Contents, camera: Camera, floor: Floor | None) -> str:
     return json.dumps(made, separators=(",", ":")).replace("</", "<\\/")
 
 
-def _part(part: Part, names: list[str], index: dict[str, int]) -> dict[str, Any]:
+def _part(
+    part: Part, names: list[str], index: dict[str, int], meshes: list[dict[str, Any]]
+) -> dict[str, Any]:
+    """A part; triangles that several parts share are put into ``meshes`` once."""
     made: dict[str, Any] = {
         "n": names.index(part.node),
         "k": part.kind,
@@ -67,15 +72,18 @@ def _part(part: Part, names: list[str], index: dict[str, int]) -> dict[str, Any]
     }
     if part.opacity < 1.0:
         made["o"] = part.opacity
-    if part.body in index:
-        made["b"] = index[part.body]  # type: ignore[index]
+    if part.body is not None and part.body in index:
+        made["b"] = index[part.body]
     if not np.array_equal(part.pose, np.eye(4)):
         made["p"] = _pose(part.pose)
     if part.vertices is not None:
         reach = max(float(abs(part.vertices).max()), 1e-6)
-        made |= {"r": reach, "v": _whole(part.vertices / reach)}
-    if part.faces is not None:
-        made["f"] = _bytes(part.faces, "<u2")
+        shape = {"r": reach, "v": _whole(part.vertices / reach)}
+        if part.faces is not None:
+            shape["f"] = _bytes(part.faces, "<u2")
+        if shape not in meshes:
+            meshes.append(shape)
+        made["m"] = meshes.index(shape)
     return made
 
 

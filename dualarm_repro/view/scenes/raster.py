@@ -6,18 +6,20 @@ from ...kernel import kernel
 
 
 @kernel
-def fill_triangles(corners, shade, color, opacity, image, depth):
+def fill_triangles(corners, shade, color, opacity, both, image, depth):
     """Paint triangles in place.
 
     ``corners`` (T, 3, 3) hold x and y in pixels and 1/depth, which is linear on the picture;
-    ``shade`` (T, 3) is the light at the corners; ``image`` (H, W, 4) is premultiplied. What is
-    translucent is painted on top and hides nothing.
+    ``shade`` (T, 3) is the light at the corners; ``image`` (H, W, 4) is premultiplied;
+    ``both``: triangles turned away are seen as well. What is translucent is painted on top
+    and hides nothing.
     """
     height, width = depth.shape
     for t in range(len(corners)):
         a, b, c = corners[t, 0], corners[t, 1], corners[t, 2]
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-        if area >= 0.0 or min(a[2], b[2], c[2]) <= 0.0:  # turned away, or behind the camera
+        turned = area > 0.0 and not both
+        if turned or area == 0.0 or min(a[2], b[2], c[2]) <= 0.0:
             continue
         left = max(0, int(np.floor(min(a[0], b[0], c[0]))))
         right = min(width - 1, int(np.ceil(max(a[0], b[0], c[0]))))

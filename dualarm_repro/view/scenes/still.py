@@ -1,6 +1,4 @@
-"""The still picture of a scene, which stands for it until it is turned, on paper and everywhere that
-draws no WebGL.
-"""
+"""The still picture of a scene: it stands for it until it is turned, on paper and without WebGL."""
 
 from __future__ import annotations
 
@@ -82,7 +80,8 @@ class _Canvas:
         lamp = _LAMP / np.linalg.norm(_LAMP)
         light = 0.50 + 0.42 * np.clip(normals @ lamp, 0.0, None) + 0.18 * np.abs(normals[:, 2])
         corners = self._pixels(vertices)[made.faces]
-        fill_triangles(corners, light[made.faces], color, shown, self._image, self._depth)
+        both = part.kind == "mesh" and (shown >= 1.0 or part.opacity < 1.0)
+        fill_triangles(corners, light[made.faces], color, shown, both, self._image, self._depth)
 
     def strokes(self, ends: np.ndarray, half: float, color: tuple, opacity: float) -> None:
         """Draw segments (S, 2, 3) of the world."""

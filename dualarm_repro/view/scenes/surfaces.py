@@ -51,9 +51,7 @@ def tapered_profile(lower: float, upper: float, length: float) -> tuple[np.ndarr
     touch = np.arcsin((lower - upper) / length) if length > abs(lower - upper) else 0.0
     below = np.linspace(-0.5 * np.pi, touch, _ARC)
     above = np.linspace(touch, 0.5 * np.pi, _ARC)
-    normals = np.column_stack(
-        [np.cos(np.append(below, above)), np.sin(np.append(below, above))]
-    )
+    normals = np.column_stack([np.cos(np.append(below, above)), np.sin(np.append(below, above))])
     radius = np.repeat([lower, upper], _ARC)[:, np.newaxis]
     return normals * radius + [0.0, 1.0] * np.repeat([[bottom], [top]], _ARC, axis=0), normals
 
@@ -98,7 +96,9 @@ def _lathe(profile: np.ndarray, normals: np.ndarray) -> Surface:
 
 
 def _box(size: np.ndarray) -> Surface:
-    vertices, normals, faces = [], [], []
+    vertices: list[np.ndarray] = []
+    normals: list[np.ndarray] = []
+    faces: list[list[int]] = []
     for axis in range(3):
         for side in (-1.0, 1.0):
             u, v = np.roll(np.eye(3), -axis - 1, axis=0)[:2]

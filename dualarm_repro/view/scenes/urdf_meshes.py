@@ -1,9 +1,10 @@
-"""Visual meshes of an arm from a URDF, with few triangles, where their licence lets them be shown."""
+"""Visual meshes of an arm, with few triangles, where their licence lets them be shown."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from .contents import Part
 #: What a description's README or LICENSE may say for its meshes to be part of a page.
 _FREE = re.compile(r"license:\s*(BSD|Apache|MIT)", re.IGNORECASE)
 #: Triangles of a whole arm.
-_BUDGET = 5000
+_BUDGET = 8000
 
 
 def visual_parts(name: str, arm: Arm, color: str, base: str) -> list[Part]:
@@ -46,9 +47,7 @@ def decimated(
     joined = np.zeros((len(counts), 3))
     np.add.at(joined, where, vertices)
     kept = where[faces]
-    proper = (
-        (kept[:, 0] != kept[:, 1]) & (kept[:, 1] != kept[:, 2]) & (kept[:, 2] != kept[:, 0])
-    )
+    proper = (kept[:, 0] != kept[:, 1]) & (kept[:, 1] != kept[:, 2]) & (kept[:, 2] != kept[:, 0])
     _, first = np.unique(np.sort(kept[proper], axis=1), axis=0, return_index=True)
     return joined / counts[:, np.newaxis], kept[proper][np.sort(first)]
 
@@ -66,34 +65,35 @@ def _description(arm: Arm) -> Path | None:
 
 
 def _parts(name: str, arm: Arm, color: str, base: str, path: Path) -> Iterator[Part]:
+    names, meshes = _meshes(path, frozenset(arm.model.names))
+    if names != list(arm.model.names):
+        return
+    carriers = {shape.parentJoint for shape in arm.geometry.geometryObjects}
+    for joint, pose, vertices, faces in meshes:
+        node = f"{name}/{joint}" if joint else base
+        body = f"{name}:{joint}" if joint in carriers else None
+        yield Part(node, "mesh", (), color, pose, body=body, vertices=vertices, faces=faces)
+
+
+@cache
+def _meshes(
+    path: Path, kept: frozenset[str]
+) -> tuple[list[str], list[tuple[int, np.ndarray, np.ndarray, np.ndarray]]]:
+    """Names of the joints, and of each mesh the joint, the pose there, and few triangles."""
     full = pin.buildModelFromUrdf(str(path))
     folders = [str(folder) for folder in path.resolve().parents]
     shapes = pin.buildGeomFromUrdf(full, str(path), pin.GeometryType.VISUAL, package_dirs=folders)
-    kept = set(arm.model.names)
     locked = [k for k in range(1, full.njoints) if full.names[k] not in kept]
     reduced, shapes = pin.buildReducedModel(full, shapes, locked, pin.neutral(full))
-    if list(reduced.names) != list(arm.model.names):
-        return
-    meshes = [s for s in shapes.geometryObjects if hasattr(s.geometry, "tri_indices")]
-    raw = [(np.asarray(m.geometry.vertices()) * m.meshScale, _triangles(m.geometry)) for m in meshes]
-    cells = np.array([0.02 * float(np.ptp(vertices, axis=0).max()) for vertices, _ in raw])
+    found = [s for s in shapes.geometryObjects if hasattr(s.geometry, "tri_indices")]
+    raw = [(np.asarray(m.geometry.vertices()) * m.meshScale, _triangles(m.geometry)) for m in found]
+    cells = np.array([0.015 * float(np.ptp(vertices, axis=0).max()) for vertices, _ in raw])
     small = [decimated(*one, cell) for one, cell in zip(raw, cells, strict=True)]
     while sum(len(faces) for _, faces in small) > _BUDGET:
-        cells *= 1.2
+        cells *= 1.15
         small = [decimated(*one, cell) for one, cell in zip(raw, cells, strict=True)]
-    carriers = {shape.parentJoint for shape in arm.geometry.geometryObjects}
-    for mesh, (vertices, faces) in zip(meshes, small, strict=True):
-        joint = mesh.parentJoint
-        yield Part(
-            f"{name}/{joint}" if joint else base,
-            "mesh",
-            (),
-            color,
-            mesh.placement.homogeneous,
-            body=f"{name}:{joint}" if joint in carriers else None,
-            vertices=vertices,
-            faces=faces,
-        )
+    placed = [(m.parentJoint, m.placement.homogeneous) for m in found]
+    return list(reduced.names), [(*at, *few) for at, few in zip(placed, small, strict=True)]
 
 
 def _triangles(geometry: Any) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +28,9 @@ class Axis:
         """Pixel and text of each tick."""
         from matplotlib.ticker import MaxNLocator
 
-        values = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]).tick_values(self.low, self.high)
+        values: Any = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]).tick_values(
+            self.low, self.high
+        )
         slack = 1e-9 * (self.high - self.low)
         inside = values[(values >= self.low - slack) & (values <= self.high + slack)]
         step = float(inside[1] - inside[0]) if len(inside) > 1 else 1.0

@@ -108,7 +108,9 @@ def curve_slice(
             {"name": c.name, "terms": {n: rounded(v) for n, v in c.terms.items()}} for c in curves
         ],
         "gains": gains,
-        "axes": [[low_, high_, start, end] for low_, high_, start, end in (_ends(across), _ends(up))],
+        "axes": [
+            [low_, high_, start, end] for low_, high_, start, end in (_ends(across), _ends(up))
+        ],
         "names": list(names) if names is not None else None,
         "minima": minima,
         "labels": [x_label, y_label],

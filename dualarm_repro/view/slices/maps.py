@@ -97,14 +97,14 @@ def map_slice(
             {
                 "name": layer.name,
                 "v": b64encode(cells.tobytes()).decode(),
-                "marks": [[n, horizontal.at(a), vertical.at(b)] for n, (a, b) in layer.marks.items()],
+                "marks": [
+                    [n, horizontal.at(a), vertical.at(b)] for n, (a, b) in layer.marks.items()
+                ],
             }
             for layer, cells in zip(layers, whole, strict=True)
         ],
         "colors": b64encode(table.tobytes()).decode(),
-        "axes": [
-            [axis.low, axis.high, axis.start, axis.end] for axis in (horizontal, vertical)
-        ],
+        "axes": [[axis.low, axis.high, axis.start, axis.end] for axis in (horizontal, vertical)],
         "labels": [across[0], up[0], quantity],
         "nothing": nothing,
         "shown": shown,
@@ -118,7 +118,7 @@ def map_slice(
         up=vertical,
         scale=scale,
         bar=round(horizontal.end + 24),
-        stops=[(k / 8, "#%02x%02x%02x" % tuple(table[round(254 * k / 8)])) for k in range(9)],
+        stops=[(k / 8, "#" + table[round(254 * k / 8)].tobytes().hex()) for k in range(9)],
         picture=_picture(whole[shown], table),
         layer=layers[shown],
         marks=[(n, horizontal.at(a), vertical.at(b)) for n, (a, b) in layers[shown].marks.items()],

@@ -1,4 +1,4 @@
-"""The landscape of a placement: fitness on horizontal planes through a box, the height on a slider."""
+"""The landscape of a placement: fitness on horizontal planes, the height on a slider."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def placement_slice(
         Marked on the plane nearest to each [m].
     """
     limits, best, said = (np.asarray(value, dtype=float) for value in (box, optimum, printed))
-    x, y = (np.linspace(*limits[k], steps) for k in (0, 1))
-    z = np.unique(np.append(np.linspace(*limits[2], heights), best[2]))
+    x, y = (np.linspace(limits[k, 0], limits[k, 1], steps) for k in (0, 1))
+    z = np.unique(np.append(np.linspace(limits[2, 0], limits[2, 1], heights), best[2]))
     points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)  # x, y, z
     values = np.asarray(fitness(points.reshape(-1, 3)), dtype=float).reshape(steps, steps, len(z))
     values = np.where(values > 0.0, values, np.nan)
