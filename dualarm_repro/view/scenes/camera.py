@@ -8,6 +8,7 @@ import numpy as np
 
 #: Angle of view from top to bottom [rad], width over height of the picture, and share of it used.
 FIELD, ASPECT, FILLED = np.deg2rad(32.0), 16.0 / 9.0, 0.9
+_CLOSEST = 1e-3  # of the eye to a point [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,16 +45,17 @@ def framed(direction: np.ndarray, points: np.ndarray) -> Camera:
     unit = direction / np.linalg.norm(direction)
     if np.hypot(*unit[:2]) < 1e-3:  # from straight above or below there is no "up"
         unit = np.array([1e-3, 0.0, unit[2]]) / np.hypot(1e-3, unit[2])
-    low, high = points.min(axis=0), points.max(axis=0)
-    target, far = 0.5 * (low + high), 2.0 * float(np.linalg.norm(high - low)) + 1e-3
-    for _ in range(40):
-        camera = Camera(target + far * unit, target)
-        seen = camera.project(points)
-        x, y, depth = seen[:, 0], seen[:, 1], seen[:, 2]
-        centre = [0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())]
-        half = np.tan(0.5 * FIELD) * float(np.median(depth))
-        right, up, _ = camera.axes
-        target = target + 0.7 * half * (ASPECT * centre[0] * right + centre[1] * up)
-        spread = max(float(np.ptp(x)), float(np.ptp(y))) / (2.0 * FILLED)
-        far *= spread**0.7
-    return Camera(target + far * unit, target)
+    camera = Camera(unit, np.zeros(3))
+    x, y, depth = camera.axes @ points.T
+    k = FILLED * np.tan(0.5 * FIELD)
+    across, far_x = _seen(x, depth, k * ASPECT)
+    up, far_y = _seen(y, depth, k)
+    eye = camera.axes.T @ [across, up, min(far_x, far_y, float(depth.min()) - _CLOSEST)]
+    middle = 0.5 * float(depth.min() + depth.max())
+    return Camera(eye, camera.axes.T @ [across, up, middle])
+
+
+def _seen(x: np.ndarray, depth: np.ndarray, k: float) -> tuple[float, float]:
+    """Where an eye stands, across and along, that just has |x - x_eye| <= k (depth - depth_eye)."""
+    right, left = float((x - k * depth).max()), float((-x - k * depth).max())
+    return 0.5 * (right - left), -0.5 * (right + left) / k

@@ -58,7 +58,8 @@ def nearest_of(
     frames, best = np.arange(len(distance)), distance.argmin(axis=1).tolist()
     ends = np.stack([point_a[frames, best], point_b[frames, best]], axis=1)
     contacts = [
-        {body_id(body) for k in np.flatnonzero(row <= 0.0) for body in pairs[k]} for row in distance
+        {body_id(body) for k in np.flatnonzero(row <= 0.0).tolist() for body in pairs[k]}
+        for row in distance
     ]
     names = [(in_words(pairs[k][0]), in_words(pairs[k][1])) for k in best]
     return Nearest(distance[frames, best], ends, names, contacts)
