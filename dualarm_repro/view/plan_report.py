@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 
 from ..planning.methods import METHODS, AnyPlan, plan_file
-from ..scene import Box, Sphere
 from .page import Page
 from .scene3d import Scene3D
 from .style import PALETTE
@@ -71,12 +70,9 @@ def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
     arms = dict(zip(plan.plans, PALETTE, strict=False))
     reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
     made = Scene3D(title, camera=(1.1 * reach, -0.9 * reach, 0.9 * reach))
+    made.contents.floor, made.exempt = plan.scene.floor, plan.scene.exempt
     for name, shape in _solids(plan):
-        if isinstance(shape, Box):
-            pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
-            made.add_box(name, shape.size, pose, _OBSTACLE, solid=True)
-        elif isinstance(shape, Sphere):
-            made.add_sphere(name, shape.center, shape.radius, _OBSTACLE, solid=True)
+        made.add_solid(name, shape, _OBSTACLE)
     for name, color in arms.items():
         one = plan.plans[name]
         made.add_arm(name, one.placed.arm, one.path[0], one.placed.placement, color)
@@ -86,8 +82,10 @@ def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
 
 
 def _solids(plan: AnyPlan) -> list[tuple[str, Any]]:
+    """Each obstacle by its name; several shapes of one name are counted."""
     found = []
     for name, solid in plan.scene.obstacles.items():
         shapes = solid if isinstance(solid, tuple | list) else (solid,)
-        found += [(f"{name} {k}", shape) for k, shape in enumerate(shapes)]
+        names = [name] if len(shapes) == 1 else [f"{name} {k + 1}" for k in range(len(shapes))]
+        found += list(zip(names, shapes, strict=True))
     return found

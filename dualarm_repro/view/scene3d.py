@@ -4,13 +4,15 @@ turned and played.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
 from ..arms import Arm
-from ..scene import Box, PlacedArm, Sphere
+from ..arms.capsules import segment_capsule
+from ..scene import Box, Capsule, ConvexHull, PlacedArm, Shape, Sphere
 from .scenes.arm_parts import arm_parts, checked_parts
 from .scenes.contents import WORLD, Contents, Mark, Motion, Part
 from .scenes.finished import finished
@@ -45,7 +47,9 @@ class Scene3D:
         self.contents = Contents(title, np.asarray(camera, dtype=float), grid)
         self._arms: dict[str, tuple[PlacedArm, np.ndarray]] = {}
         self._paths: dict[str, np.ndarray] = {}
-        self._solids: dict[str, Any] = {}
+        self._solids: dict[str, Shape] = {}
+        #: Pairs of names that may touch, see ``Scene``.
+        self.exempt: Collection[tuple[str, str]] = ()
 
     def add_arm(
         self,
@@ -146,6 +150,22 @@ class Scene3D:
         body = name if solid else None
         self._add("tapered", size, color, pose=pose, opacity=0.8 if solid else 1.0, body=body)
 
+    def add_solid(self, name: str, shape: Shape, color: str) -> None:
+        """Draw an obstacle; a half-space, which has no end, only counts in the distances."""
+        match shape:
+            case Box():
+                pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
+                self.add_box(name, shape.size, pose, color, solid=True)
+            case Sphere():
+                self.add_sphere(name, shape.center, shape.radius, color, solid=True)
+            case Capsule():
+                place, drawn = segment_capsule(shape.start, shape.end, shape.radius)
+                size = (shape.radius, shape.radius, 2.0 * drawn.halfLength)
+                self._add("tapered", size, color, pose=place.homogeneous, body=name)
+            case ConvexHull():
+                self.add_mesh(name, shape.vertices, shape.faces, color)
+        self._solids[name] = shape
+
     def html(self) -> str:
         """The scene as one file that needs no network."""
         return str(alone(self.title, self._figure()))
@@ -166,7 +186,7 @@ class Scene3D:
                 name: (placed, self._paths.get(name, np.tile(q, (count, 1))))
                 for name, (placed, q) in self._arms.items()
             }
-            made.nearest = nearest_pairs(paths, self._solids)
+            made.nearest = nearest_pairs(paths, self._solids, self.exempt)
         return figure(*finished(made, list(self._arms.values())))
 
 

@@ -8,6 +8,7 @@ import pinocchio as pin
 import pytest
 
 from dualarm_repro.arms import load_arm
+from dualarm_repro.scene import Box, Capsule, ConvexHull, Sphere
 from dualarm_repro.view.scene3d import Scene3D
 
 Q = np.array([0.3, -1.0, 0.5, 0.2, -0.4, 0.1])
@@ -104,3 +105,21 @@ def test_two_meshed_arms_in_long_motion_stay_small():
         made.add_arm(name, arm, path[0], pin.SE3(np.eye(3), np.array([0.0, 0.5 * k, 0.0])))
     made.animate({"a": (arm, path), "b": (arm, path[::-1])})
     assert len(made.page_html()) < 300_000
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Box([0.5, 0.0, 0.5], [0.1, 0.1, 0.1]),
+        Sphere([0.5, 0.0, 0.5], 0.1),
+        Capsule([0.5, 0.0, 0.5], [0.5, 0.2, 0.5], 0.1),
+        ConvexHull(np.vstack([np.zeros(3), 0.2 * np.eye(3)]) + 0.5),
+    ],
+)
+def test_every_obstacle_is_seen_and_measured(shape):
+    made = Scene3D("obstacle", camera=(1.0, 1.0, 1.0))
+    made.add_arm("arm", load_arm("irb120"), np.zeros(6))
+    before = len(made.contents.parts)
+    made.add_solid("thing", shape, "#9A9A9A")
+    assert len(made.contents.parts) == before + 1
+    assert "arm, link" in made.page_html()

@@ -466,6 +466,9 @@
   }
 
   /* ---- the page -------------------------------------------------------------------------- */
+  /* On paper names stand where the still picture has them. */
+  addEventListener("beforeprint", () => alive.forEach((scene) => scene.marks.forEach((span, k) => (span.style.cssText = scene.still[k]))));
+  addEventListener("afterprint", () => alive.forEach((scene) => scene.show()));
   async function start(figure, button) {
     const focused = document.activeElement === button;
     button.disabled = true;

@@ -68,8 +68,8 @@
         dot.setAttribute("visibility", y < up[3] || y > up[2] ? "hidden" : "inherit");
       });
       const [a, b] = data.labels, tail = data.names ? `; ${data.names[at]}` : "";
-      readout.textContent = `${bare(a)} ${short(data.x[at])} ${unit(a)}: ` +
-        now.map((row, c) => `${data.curves[c].name} ${short(row[at])} ${unit(b)}`).join(", ") + tail;
+      readout.textContent = `${[bare(a), short(data.x[at]), unit(a)].join(" ").trim()}: ` +
+        now.map((row, c) => [data.curves[c].name, short(row[at]), unit(b)].join(" ").trim()).join(", ") + tail;
     };
     const nearest = (x) => data.x.reduce((best, v, k) => (Math.abs(v - x) < Math.abs(data.x[best] - x) ? k : best), 0);
     pointed(svg, "Arrow keys read values out.", (x) => show(nearest(value(across, x))),

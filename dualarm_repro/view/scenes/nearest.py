@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,18 +34,25 @@ class Nearest:
 
 
 def nearest_pairs(
-    paths: Mapping[str, tuple[PlacedArm, np.ndarray]], solids: Mapping[str, Shape]
+    paths: Mapping[str, tuple[PlacedArm, np.ndarray]],
+    solids: Mapping[str, Shape],
+    exempt: Collection[tuple[str, str]] = (),
 ) -> Nearest | None:
     """The closest pairs of arms, each with its configurations (F, nq), among obstacles.
 
-    Links of one arm are not compared with each other; None if nothing else is there.
+    Links of one arm are not compared with each other, nor are pairs that may touch, whose names
+    are those of bodies or owners; None if nothing else is there.
     """
     arms = [placed for placed, _ in paths.values()]
     scene = Scene(arms, dict(solids), self_collision=False)
-    if not len(scene.pairs):
+    kept = [k for k, pair in enumerate(scene.pairs.bodies) if not _may_touch(pair, exempt)]
+    if not kept:
         return None
     found = clearance(scene, np.hstack([path for _, path in paths.values()]))
-    return nearest_of(found.distance, found.point_a, found.point_b, scene.pairs.bodies)
+    bodies = [scene.pairs.bodies[k] for k in kept]
+    return nearest_of(
+        found.distance[:, kept], found.point_a[:, kept], found.point_b[:, kept], bodies
+    )
 
 
 def nearest_of(
@@ -73,7 +80,12 @@ def body_id(body: Body) -> str:
 def in_words(body: Body) -> str:
     """A body as a reader would call it."""
     if body.joint is None:
-        return body.owner
+        return body.owner.replace("_", " ")
     if "/tool_" in body.name:
         return f"{body.owner}, tool"
     return f"{body.owner}, link {body.joint}" if body.joint else f"{body.owner}, base"
+
+
+def _may_touch(pair: tuple[Body, Body], exempt: Collection[tuple[str, str]]) -> bool:
+    one, other = ({body.name, body.owner} for body in pair)
+    return any((a in one and b in other) or (b in one and a in other) for a, b in exempt)

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...errors import InputError
 from ..page import Page
 from .curves import Curve, curve_slice
 
@@ -25,15 +26,25 @@ def distance_slice(
     Parameters
     ----------
     distances : mapping of str to (N,)
-        Name of a curve to distances [m], e.g. of a plan with and without repulsion.
+        Name of a curve to distances [m], e.g. of a plan with and without repulsion; the shorter
+        one stays where it ends.
     time : (N,)
         Default the index.
     levels
         Name to a distance [m] that is marked beside contact, e.g. the range of a repulsion.
     pairs
         The two bodies that are closest at each time.
+
+    Raises
+    ------
+    InputError
+        Not one distance at a time.
     """
     rows = {name: 1e3 * np.asarray(values, dtype=float) for name, values in distances.items()}
+    for name, values in rows.items():
+        if values.ndim != 1 or not len(values):
+            expected = "distances one after the other"
+            raise InputError("distance_slice", f"shape of {name}", values.shape, expected)
     count = max(map(len, rows.values()))
     whole = {
         name: np.append(values, np.full(count - len(values), values[-1]))

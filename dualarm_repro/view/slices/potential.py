@@ -38,14 +38,15 @@ def potential_slice(
     base, added
         Name of a term to its potential; the names of ``added`` stand at the sliders.
     x : (N,)
-        Coordinate along the line; default its length in the joints [rad].
+        Coordinate along the line; default its length in the joints [rad], without rests.
     marks
         Name to a place on x, e.g. the trap.
     """
     q = np.asarray(line, dtype=float)
     if x is None:
         steps = np.linalg.norm(np.diff(q, axis=0), axis=1)
-        x = np.concatenate([[0.0], np.cumsum(steps)])
+        moves = np.append(True, steps > 0.0)
+        q, x = q[moves], np.append(0.0, np.cumsum(steps))[moves]
     fixed = {name: np.asarray(value(q), dtype=float) for name, value in base.items()}
     moved = {name: np.asarray(value(q), dtype=float) for name, value in added.items()}
     return curve_slice(

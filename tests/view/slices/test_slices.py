@@ -96,6 +96,11 @@ def test_what_does_not_fit_is_refused(x, terms, names):
         curve_slice("t", x, [Curve("y", terms)], x_label="x", y_label="y", names=names)
 
 
+def test_one_distance_at_a_time():
+    with pytest.raises(InputError, match="one after the other"):
+        distance_slice("t", {"a": np.ones((3, 2))})
+
+
 def test_a_map_stores_values_from_the_top():
     values = np.array([[0.0, 1.0, 2.0], [3.0, np.nan, 5.0]])
     layers = [Layer("one", values, {"here": (0.0, 0.0)}), Layer("two", 0.5 * values, {})]
