@@ -4,7 +4,6 @@ turned and played.
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -48,8 +47,6 @@ class Scene3D:
         self._arms: dict[str, tuple[PlacedArm, np.ndarray]] = {}
         self._paths: dict[str, np.ndarray] = {}
         self._solids: dict[str, Shape] = {}
-        #: Pairs of names that may touch, see ``Scene``.
-        self.exempt: Collection[tuple[str, str]] = ()
 
     def add_arm(
         self,
@@ -186,7 +183,7 @@ class Scene3D:
                 name: (placed, self._paths.get(name, np.tile(q, (count, 1))))
                 for name, (placed, q) in self._arms.items()
             }
-            made.nearest = nearest_pairs(paths, self._solids, self.exempt)
+            made.nearest = nearest_pairs(paths, self._solids)
         return figure(*finished(made, list(self._arms.values())))
 
 

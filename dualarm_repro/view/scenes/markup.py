@@ -92,7 +92,7 @@ def _told(contents: Contents, frame: int | None, floor: Floor | None) -> str:
     if contents.motion is not None and frame is not None:
         frames = contents.motion.frames
         when = f"Shown: step {frames[frame]} of {frames[-1]}"
-        told.append(f"{when}, where bodies are closest" if found else when)
+        told.append(f"{when}, where {found.what} are closest" if found else when)
     if found is not None:
         at = frame or 0
         value, (one, other) = 1e3 * found.distance[at], found.names[at]

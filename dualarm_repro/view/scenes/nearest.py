@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,34 +25,32 @@ class Nearest:
         The two bodies in words.
     contacts : list of set of str
         Bodies that touch or overlap another one.
+    what : str
+        What is compared, in words.
     """
 
     distance: np.ndarray
     ends: np.ndarray
     names: list[tuple[str, str]]
     contacts: list[set[str]]
+    what: str
 
 
 def nearest_pairs(
     paths: Mapping[str, tuple[PlacedArm, np.ndarray]],
     solids: Mapping[str, Shape],
-    exempt: Collection[tuple[str, str]] = (),
 ) -> Nearest | None:
     """The closest pairs of arms, each with its configurations (F, nq), among obstacles.
 
-    Links of one arm are not compared with each other, nor are pairs that may touch, whose names
-    are those of bodies or owners; None if nothing else is there.
+    Links of one arm are not compared with each other; None if nothing else is there.
     """
     arms = [placed for placed, _ in paths.values()]
     scene = Scene(arms, dict(solids), self_collision=False)
-    kept = [k for k, pair in enumerate(scene.pairs.bodies) if not _may_touch(pair, exempt)]
-    if not kept:
+    if not len(scene.pairs):
         return None
     found = clearance(scene, np.hstack([path for _, path in paths.values()]))
-    bodies = [scene.pairs.bodies[k] for k in kept]
-    return nearest_of(
-        found.distance[:, kept], found.point_a[:, kept], found.point_b[:, kept], bodies
-    )
+    what = "arms and obstacles"
+    return nearest_of(found.distance, found.point_a, found.point_b, scene.pairs.bodies, what)
 
 
 def nearest_of(
@@ -60,6 +58,7 @@ def nearest_of(
     point_a: np.ndarray,
     point_b: np.ndarray,
     pairs: Sequence[tuple[Body, Body]],
+    what: str = "bodies",
 ) -> Nearest:
     """The smallest of the distances (F, P) of P pairs, which the points (F, P, 3) attain."""
     frames, best = np.arange(len(distance)), distance.argmin(axis=1).tolist()
@@ -69,7 +68,7 @@ def nearest_of(
         for row in distance
     ]
     names = [(in_words(pairs[k][0]), in_words(pairs[k][1])) for k in best]
-    return Nearest(distance[frames, best], ends, names, contacts)
+    return Nearest(distance[frames, best], ends, names, contacts, what)
 
 
 def body_id(body: Body) -> str:
@@ -84,8 +83,3 @@ def in_words(body: Body) -> str:
     if "/tool_" in body.name:
         return f"{body.owner}, tool"
     return f"{body.owner}, link {body.joint}" if body.joint else f"{body.owner}, base"
-
-
-def _may_touch(pair: tuple[Body, Body], exempt: Collection[tuple[str, str]]) -> bool:
-    one, other = ({body.name, body.owner} for body in pair)
-    return any((a in one and b in other) or (b in one and a in other) for a, b in exempt)

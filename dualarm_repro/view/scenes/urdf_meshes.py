@@ -21,7 +21,7 @@ from .contents import Part
 #: What a description's README or LICENSE may say for its meshes to be part of a page.
 _FREE = re.compile(r"license:\s*(BSD|Apache|MIT)", re.IGNORECASE)
 #: Triangles of a whole arm.
-_BUDGET = 8000
+_BUDGET = 12_000
 
 
 def visual_parts(name: str, arm: Arm, color: str, base: str) -> list[Part]:

@@ -35,14 +35,3 @@ def test_bodies_in_words():
 
 def test_nothing_to_measure():
     assert nearest_pairs({"left": (placed("left", 0.0), np.zeros((1, 6)))}, {}) is None
-
-
-def test_pairs_that_may_touch_are_left_out():
-    paths = {"left": (placed("left", 0.0), np.zeros((1, 6)))}
-    solids = {"table": Sphere([0.0, 0.0, 0.0], 0.1), "ball": Sphere([0.0, 0.5, 0.1], 0.1)}
-    touching = nearest_pairs(paths, solids)
-    assert touching.distance[0] < 0.0
-    assert touching.names[0][1] == "table"
-    found = nearest_pairs(paths, solids, [("table", "left")])
-    assert found.names[0][1] == "ball"
-    assert nearest_pairs(paths, {"table": solids["table"]}, [("left", "table")]) is None
