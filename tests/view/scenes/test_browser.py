@@ -1,8 +1,6 @@
 """A scene comes to life in a browser, and says so where it cannot."""
 
 import re
-import shutil
-import subprocess
 
 import numpy as np
 import pytest
@@ -10,13 +8,7 @@ import pytest
 from dualarm_repro.arms import load_arm
 from dualarm_repro.view.scene3d import Scene3D
 
-CHROMIUM = shutil.which("chromium")
-
-
-def dumped(path, tmp_path, *options):
-    command = [CHROMIUM, "--headless", "--no-sandbox", f"--user-data-dir={tmp_path / 'profile'}"]
-    command += ["--virtual-time-budget=3000", *options, "--dump-dom", path.as_uri()]
-    return subprocess.run(command, capture_output=True, text=True, timeout=120).stdout
+from ..browser import dumped, needs_browser
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +22,7 @@ def file(tmp_path_factory):
     return path
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@needs_browser
 def test_it_plays_and_measures(file, tmp_path):
     html = dumped(file, tmp_path, "--enable-unsafe-swiftshader")
     assert 'class="ledger-scene live"' in html
@@ -40,7 +32,7 @@ def test_it_plays_and_measures(file, tmp_path):
     assert "scene-start" not in re.sub(r"<(style|script).*?</\1>", "", html, flags=re.DOTALL)
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@needs_browser
 def test_without_webgl_the_picture_stays(file, tmp_path):
     html = dumped(file, tmp_path, "--disable-3d-apis")
     assert 'class="ledger-scene live"' not in html
