@@ -119,7 +119,7 @@
       const cell = cells[layer][(rows - 1 - at[1]) * columns + at[0]], [a, b, c] = data.labels;
       pointer.setAttribute("visibility", "visible");
       pointer.setAttribute("transform", `translate(${pixel(across, x)} ${pixel(up, y)})`);
-      const told = cell === 255 ? data.nothing : `${bare(c)} ${short(low + (cell / 254) * (high - low))} ${unit(c)}`;
+      const told = cell === 255 ? data.nothing : `${bare(c)} ${short(low + (cell / 254) * (high - low))} ${unit(c)}`.trim();
       readout.textContent = `${bare(a)} ${x.toFixed(3)}, ${bare(b)} ${y.toFixed(3)} ${unit(b)}, ${data.layers[layer].name}: ${told}`;
     };
     const index = (v, from, to, count) => Math.round(((v - from) / (to - from)) * (count - 1));
