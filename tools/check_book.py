@@ -20,6 +20,7 @@ from prerun import ROOT, notebooks, toc_pages
 Pages = Mapping[str, BeautifulSoup]
 MEGABYTE = 1_000_000
 LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 8 * MEGABYTE
+LARGEST_SCENE = 300_000
 _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
 #: Where verdicts are told in words.
@@ -133,6 +134,19 @@ def images_without_alt(pages: Pages) -> list[str]:
     ]
 
 
+def faulty_scenes(pages: Pages) -> list[str]:
+    """3-D scenes without a picture for paper and readers without scripts, or too large."""
+    lines = []
+    for name, soup in pages.items():
+        for scene in soup.select("figure.ledger-scene"):
+            size, still = len(str(scene)), scene.select_one("img.scene-still")
+            if still is None or not still.get("src", "").startswith("data:image/"):
+                lines.append(f"{name}: a scene without a still picture")
+            if size > LARGEST_SCENE:
+                lines.append(f"{name}: a scene of {size} bytes, allowed are {LARGEST_SCENE}")
+    return lines
+
+
 def not_executed(pages: Pages, page: str, expected: Iterable[str]) -> list[str]:
     """Notebooks that the table of executions on ``page`` does not report as run to the end."""
     rows = pages[page].select("table tr") if page in pages else []
@@ -219,7 +233,7 @@ def violations(root: Path) -> list[str]:
     expected = [str(p.relative_to(book).with_suffix("")) for p in notebooks(book)]
     lines += not_executed(pages, "status", expected)
     lines += broken_links(pages, html) + images_without_alt(pages) + failed_outputs(pages)
-    lines += network_use(pages, html)
+    lines += faulty_scenes(pages) + network_use(pages, html)
     return lines + machine_paths(html, (root, Path.home())) + over_budget(html)
 
 

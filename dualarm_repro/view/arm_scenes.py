@@ -42,7 +42,7 @@ def among_spheres(title: str, spheres: Mapping[str, Sphere], camera: Camera) -> 
     """A scene with spheres in it."""
     made = Scene3D(title, camera=camera)
     for name, sphere in spheres.items():
-        made.add_sphere(name, sphere.center, sphere.radius, ORANGE)
+        made.add_sphere(name, sphere.center, sphere.radius, ORANGE, solid=True)
     return made
 
 

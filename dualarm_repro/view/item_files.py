@@ -25,9 +25,9 @@ KINDS = {
 }
 _IMAGE = re.compile(r'src="data:image/(svg\+xml|png);base64,([^"]+)"')
 _SCENE = """<!DOCTYPE html><html lang="en" data-content_root="../"><head><meta charset="utf-8">
-<title>{title}</title><style>body {{ margin: 0; font-family: sans-serif }}
-figure {{ margin: 0 }} figcaption {{ padding: 0.5rem }}
-iframe {{ height: 92vh !important }}</style></head><body>{body}</body></html>
+<title>{title}</title><meta name="viewport" content="width=device-width">
+<link rel="stylesheet" href="../_static/moving/scene.css"></head>
+<body class="scene-alone">{body}<script src="../_static/moving/scene.js"></script></body></html>
 """
 
 

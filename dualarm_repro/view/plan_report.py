@@ -10,9 +10,10 @@ import numpy as np
 import pandas as pd
 
 from ..planning.methods import METHODS, AnyPlan, plan_file
-from ..scene import Box, Sphere
+from ..scene import clearance
 from .page import Page
 from .scene3d import Scene3D
+from .scenes.nearest import Nearest, nearest_of
 from .style import PALETTE
 
 #: Joint step between two link checks [rad].
@@ -71,23 +72,32 @@ def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
     arms = dict(zip(plan.plans, PALETTE, strict=False))
     reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
     made = Scene3D(title, camera=(1.1 * reach, -0.9 * reach, 0.9 * reach))
+    made.contents.floor = plan.scene.floor
     for name, shape in _solids(plan):
-        if isinstance(shape, Box):
-            pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
-            made.add_box(name, shape.size, pose, _OBSTACLE)
-        elif isinstance(shape, Sphere):
-            made.add_sphere(name, shape.center, shape.radius, _OBSTACLE)
+        made.add_solid(name, shape, _OBSTACLE)
     for name, color in arms.items():
         one = plan.plans[name]
         made.add_arm(name, one.placed.arm, one.path[0], one.placed.placement, color)
         made.add_path(f"{name} track", one.tcp, color)
     made.animate({n: (p.placed.arm, p.path) for n, p in plan.plans.items() if p.steps})
+    if made.contents.motion:
+        made.contents.nearest = _nearest(plan, made.contents.motion.frames)
     return made
 
 
+def _nearest(plan: AnyPlan, frames: np.ndarray) -> Nearest:
+    """The pairs that the scene of the plan watches, so that it shows what the summary says."""
+    rows = {n: p.path[np.minimum(frames, len(p.path) - 1)] for n, p in plan.plans.items()}
+    found = clearance(plan.scene, plan.scene.stack(**rows), frames)
+    pairs = plan.scene.pairs.bodies
+    return nearest_of(found.distance, found.point_a, found.point_b, pairs)
+
+
 def _solids(plan: AnyPlan) -> list[tuple[str, Any]]:
+    """Each obstacle by its name; several shapes of one name are counted."""
     found = []
     for name, solid in plan.scene.obstacles.items():
         shapes = solid if isinstance(solid, tuple | list) else (solid,)
-        found += [(f"{name} {k}", shape) for k, shape in enumerate(shapes)]
+        names = [name] if len(shapes) == 1 else [f"{name} {k + 1}" for k in range(len(shapes))]
+        found += list(zip(names, shapes, strict=True))
     return found

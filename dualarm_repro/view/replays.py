@@ -50,7 +50,7 @@ def add_stage(
     for k, bar in enumerate(bars):
         pose = np.eye(4)
         pose[:3] = bar.pose
-        made.add_box(f"bar {k}", bar.size, pose, _BAR)
+        made.add_box(f"bar {k}", bar.size, pose, _BAR, solid=True)
     for name, (place, radius, color) in marks.items():
         made.add_sphere(name, place, radius, color)
     return made

@@ -1,33 +1,38 @@
-"""Static 3-D scenes: arms drawn from their capsules, obstacles, point clouds, paths, motion."""
+"""3-D scenes: arms with shaped links, obstacles, clouds, paths and motion, as a picture that can be
+turned and played.
+"""
 
 from __future__ import annotations
 
-from html import escape
+from typing import Any
 
-import meshcat.geometry as mg
-import meshcat.transformations as mt
 import numpy as np
 import pinocchio as pin
-from meshcat.animation import Animation
 
 from ..arms import Arm
-from .static_meshcat import page_iframe, standalone_html, static_visualizer
-
-#: Meshcat's cylinders point along y, coal's capsules along z.
-_Y_TO_Z = mt.rotation_matrix(np.pi / 2, np.array([1.0, 0.0, 0.0]))
+from ..arms.capsules import segment_capsule
+from ..scene import Box, Capsule, ConvexHull, PlacedArm, Shape, Sphere
+from .scenes.arm_parts import arm_parts, checked_parts
+from .scenes.contents import WORLD, Contents, Mark, Motion, Part
+from .scenes.finished import finished
+from .scenes.markup import alone, figure
+from .scenes.nearest import nearest_pairs
+from .scenes.urdf_meshes import visual_parts
 
 
 class Scene3D:
-    """A scene that the reader can turn, built from primitives so that it stays small.
+    """A scene that the reader can turn; small, since shapes are sent as their sizes.
 
     Parameters
     ----------
     title
         Shown below the scene and to screen readers: what is to be seen.
     camera
-        Position of the camera in the world frame, metres.
+        Direction from which it is seen, in the world frame; the distance follows from the action.
+    height
+        Not used any more: a scene is as high as its width asks for.
     grid
-        Whether the floor grid is drawn; its cells of half a metre suit large arms.
+        Whether the floor is drawn.
     """
 
     def __init__(
@@ -37,14 +42,11 @@ class Scene3D:
         height: int = 420,
         grid: bool = True,
     ) -> None:
-        self.title, self._height = title, height
-        self._vis = static_visualizer()
-        self._vis["/Background"].set_property("top_color", [1.0, 1.0, 1.0])
-        self._vis["/Background"].set_property("bottom_color", [0.93, 0.94, 0.96])
-        self._vis["/Grid"].set_property("visible", grid)
-        x, y, z = camera
-        # Inside the camera's node y points up.
-        self._vis["/Cameras/default/rotated/<object>"].set_property("position", [x, z, -y])
+        self.title = title
+        self.contents = Contents(title, np.asarray(camera, dtype=float), grid)
+        self._arms: dict[str, tuple[PlacedArm, np.ndarray]] = {}
+        self._paths: dict[str, np.ndarray] = {}
+        self._solids: dict[str, Shape] = {}
 
     def add_arm(
         self,
@@ -55,29 +57,27 @@ class Scene3D:
         color: str = "#0072B2",
         opacity: float = 1.0,
     ) -> None:
-        """Draw an arm at a configuration: a node per joint, a capsule per collision geometry."""
-        material = _material(color, opacity)
-        node = self._vis[name]
-        node.set_transform((placement or pin.SE3.Identity()).homogeneous)
-        for geometry in arm.geometry.geometryObjects:
-            capsule = geometry.geometry
-            part = node[f"joint{geometry.parentJoint}"][geometry.name]
-            part.set_transform(geometry.placement.homogeneous)
-            length = 2.0 * capsule.halfLength
-            part["tube"].set_object(mg.Cylinder(length, capsule.radius), material)
-            part["tube"].set_transform(_Y_TO_Z)
-            for side, offset in (("lower", -0.5), ("upper", 0.5)):
-                part[side].set_object(mg.Sphere(capsule.radius), material)
-                part[side].set_transform(
-                    mt.translation_matrix(np.array([0.0, 0.0, offset * length]))
-                )
-        for joint, pose in _joint_poses(arm, q).items():
-            node[f"joint{joint}"].set_transform(pose)
+        """Draw an arm at a configuration; a translucent one is not watched for contacts.
+
+        Links are drawn within the capsules that are checked, an arm of the catalogue with the
+        meshes of its description if their licence allows it.
+        """
+        made, placed = self.contents, PlacedArm(name, arm, placement or pin.SE3.Identity())
+        base, q = f"{name}/0", arm.configurations(q)
+        made.nodes[base] = placed.placement.homogeneous
+        for node, pose in _joint_poses(placed, q).items():
+            made.nodes[node] = pose
+        meshes = visual_parts(name, arm, color, base) if opacity == 1.0 else []
+        made.parts += meshes or arm_parts(name, arm, color, opacity, base)
+        if opacity == 1.0:
+            made.checked += checked_parts(name, arm, color, base)
+            made.marks.append(Mark(name, base, np.zeros(3)))
+            self._arms[name] = (placed, q)
 
     def animate(
         self, arms: dict[str, tuple[Arm, np.ndarray]], fps: int = 20, every: int = 3
     ) -> None:
-        """Move arms drawn before along their paths, played in a loop with a time slider.
+        """Move arms drawn before along their paths, with a slider for the time.
 
         Parameters
         ----------
@@ -86,73 +86,116 @@ class Scene3D:
         every
             Only each ``every``-th configuration becomes a key frame.
         """
-        animation = Animation(default_framerate=fps)
-        for name, (arm, path) in arms.items():
-            for frame in sorted({*range(0, len(path), every), len(path) - 1}):
-                view = animation.at_frame(self._vis, frame)
-                for joint, pose in _joint_poses(arm, path[frame]).items():
-                    view[f"{name}/joint{joint}"].set_transform(pose)
-        self._vis.set_animation(animation, repetitions=1000)
+        count = max((len(path) for _, path in arms.values()), default=0)
+        if count < 2:
+            return
+        frames = np.array(sorted({*range(0, count, every), count - 1}))
+        motion = self.contents.motion = Motion(frames, fps)
+        for name, (_, path) in arms.items():
+            placed, _ = self._arms[name]
+            rows = np.asarray(path, dtype=float)[np.minimum(frames, len(path) - 1)]
+            self._paths[name] = rows
+            poses = [_joint_poses(placed, q) for q in rows]
+            for node in poses[0]:
+                motion.poses[node] = np.array([pose[node] for pose in poses])
+            self.contents.tips[name] = np.array([_tip(placed, q) for q in path])
+
+    def move(self, node: str, poses: np.ndarray) -> None:
+        """Move a node of one's own along poses (F, 4, 4), one for each key frame."""
+        self.contents.nodes.setdefault(node, poses[0])
+        if self.contents.motion:
+            self.contents.motion.poses[node] = poses
 
     def add_points(self, name: str, points: np.ndarray, color: str, size: float = 0.02) -> None:
         """Draw a cloud of points (N, 3)."""
-        colors = np.tile(np.array(_rgb(color), dtype=np.float32)[:, None], len(points))
-        positions = np.ascontiguousarray(points.T, dtype=np.float32)
-        self._vis[name].set_object(mg.PointCloud(positions, colors, size=size))
+        self._add("points", (float(size),), color, vertices=np.asarray(points, dtype=float))
 
     def add_path(self, name: str, points: np.ndarray, color: str) -> None:
         """Draw a polyline through points (N, 3)."""
-        positions = np.ascontiguousarray(points.T, dtype=np.float32)
-        material = mg.LineBasicMaterial(color=_number(color), linewidth=3)
-        self._vis[name].set_object(mg.Line(mg.PointsGeometry(positions), material))
+        self._add("line", (1.0,), color, vertices=np.asarray(points, dtype=float))
 
-    def add_box(self, name: str, size: np.ndarray, pose: np.ndarray, color: str) -> None:
-        """Draw a box of edge lengths ``size`` at a homogeneous ``pose``."""
-        lengths = [float(length) for length in size]
-        self._vis[name].set_object(mg.Box(lengths), _material(color, 1.0))
-        self._vis[name].set_transform(np.asarray(pose, dtype=float))
+    def add_box(
+        self, name: str, size: np.ndarray, pose: np.ndarray, color: str, solid: bool = False
+    ) -> None:
+        """Draw a box of edge lengths ``size`` at a homogeneous ``pose``.
+
+        ``solid``: an obstacle, to which distances are shown.
+        """
+        lengths, pose = np.asarray(size, dtype=float), np.asarray(pose, dtype=float)
+        if solid:
+            self._solids[name] = Box(pose[:3, 3], lengths, pose[:3, :3])
+        self._add("box", tuple(lengths), color, pose=pose, body=name if solid else None)
 
     def add_mesh(
         self, name: str, vertices: np.ndarray, faces: np.ndarray, color: str, opacity: float = 1.0
     ) -> None:
         """Draw a surface of triangles ``faces`` (F, 3), rows of ``vertices`` (V, 3)."""
-        mesh = mg.TriangularMeshGeometry(np.asarray(vertices), np.asarray(faces))
-        self._vis[name].set_object(mesh, _material(color, opacity))
+        at = np.asarray(vertices, dtype=float)
+        self._add("mesh", (), color, opacity=opacity, vertices=at, faces=np.asarray(faces))
 
-    def add_sphere(self, name: str, center: np.ndarray, radius: float, color: str) -> None:
-        """Draw a sphere."""
-        self._vis[name].set_object(mg.Sphere(float(radius)), _material(color, 0.8))
-        self._vis[name].set_transform(mt.translation_matrix(np.asarray(center, dtype=float)))
+    def add_sphere(
+        self, name: str, center: np.ndarray, radius: float, color: str, solid: bool = False
+    ) -> None:
+        """Draw a sphere; one that is no obstacle marks a place and is named if it has no number."""
+        pose, center = np.eye(4), np.asarray(center, dtype=float)
+        pose[:3, 3] = center
+        if solid:
+            self._solids[name] = Sphere(center, float(radius))
+        elif not any(letter.isdigit() for letter in name):
+            self.contents.marks.append(Mark(name, WORLD, center))
+        size = (float(radius), float(radius), 0.0)
+        body = name if solid else None
+        self._add("tapered", size, color, pose=pose, opacity=0.8 if solid else 1.0, body=body)
+
+    def add_solid(self, name: str, shape: Shape, color: str) -> None:
+        """Draw an obstacle; a half-space, which has no end, only counts in the distances."""
+        match shape:
+            case Box():
+                pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
+                self.add_box(name, shape.size, pose, color, solid=True)
+            case Sphere():
+                self.add_sphere(name, shape.center, shape.radius, color, solid=True)
+            case Capsule():
+                place, drawn = segment_capsule(shape.start, shape.end, shape.radius)
+                size = (shape.radius, shape.radius, 2.0 * drawn.halfLength)
+                self._add("tapered", size, color, pose=place.homogeneous, body=name)
+            case ConvexHull():
+                self.add_mesh(name, shape.vertices, shape.faces, color)
+        self._solids[name] = shape
 
     def html(self) -> str:
         """The scene as one file that needs no network."""
-        return standalone_html(self._vis, self.title)
+        return str(alone(self.title, self._figure()))
 
     def page_html(self) -> str:
         """The scene for a page of the book, with its title as a caption."""
-        frame = page_iframe(self._vis, self.title, self._height)
-        caption = f"{escape(self.title)} Drag to turn, scroll to zoom."
-        return f'<figure class="ledger-figure">{frame}<figcaption>{caption}</figcaption></figure>'
+        return str(self._figure())
+
+    def _add(self, kind: Any, size: tuple[float, ...], color: str, **how: Any) -> None:
+        self.contents.parts.append(Part(WORLD, kind, size, color, **how))
+
+    def _figure(self) -> Any:
+        made = self.contents
+        if made.nearest is None and self._arms and (made.motion or self._solids):
+            motion = made.motion
+            count = len(motion.frames) if motion else 1
+            paths = {
+                name: (placed, self._paths.get(name, np.tile(q, (count, 1))))
+                for name, (placed, q) in self._arms.items()
+            }
+            made.nearest = nearest_pairs(paths, self._solids)
+        return figure(*finished(made, list(self._arms.values())))
 
 
-def _rgb(color: str) -> tuple[float, float, float]:
-    """Red, green and blue in [0, 1] of a ``#rrggbb`` colour."""
-    number = _number(color)
-    red, green, blue = (((number >> shift) & 255) / 255 for shift in (16, 8, 0))
-    return red, green, blue
+def _joint_poses(placed: PlacedArm, q: np.ndarray) -> dict[str, np.ndarray]:
+    """World poses of the joints of an arm by the name of their node."""
+    data = placed.arm.model.createData()
+    pin.forwardKinematics(placed.arm.model, data, np.asarray(q, dtype=float))
+    return {
+        f"{placed.name}/{joint}": (placed.placement * data.oMi[joint]).homogeneous
+        for joint in range(1, placed.arm.model.njoints)
+    }
 
 
-def _number(color: str) -> int:
-    return int(color.removeprefix("#"), 16)
-
-
-def _material(color: str, opacity: float) -> mg.MeshLambertMaterial:
-    return mg.MeshLambertMaterial(color=_number(color), opacity=opacity, transparent=opacity < 1.0)
-
-
-def _joint_poses(arm: Arm, q: np.ndarray) -> dict[int, np.ndarray]:
-    """Poses of the joints that carry geometry, in the base frame."""
-    data = arm.model.createData()
-    pin.forwardKinematics(arm.model, data, np.asarray(q, dtype=float))
-    joints = {geometry.parentJoint for geometry in arm.geometry.geometryObjects}
-    return {joint: data.oMi[joint].homogeneous for joint in sorted(joints)}
+def _tip(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
+    return placed.placement.act(placed.arm.fk(q)[:3, 3])

@@ -138,6 +138,21 @@ def test_link_of_an_output_may_lead_to_a_file(html):
     assert check_book.broken_links(pages, html) == []
 
 
+@pytest.mark.parametrize(
+    ("scene", "count"),
+    [
+        ('<img class="scene-still" alt="x" src="data:image/webp;base64,AA==">', 0),
+        ("<canvas></canvas>", 1),
+        ('<img class="scene-still" alt="x" src="">', 1),
+        ('<img class="scene-still" alt="x" src="data:image/webp;base64,' + "A" * 300_000 + '">', 1),
+    ],
+)
+def test_scene_needs_a_still_picture_and_is_small(html, scene, count):
+    figure = f'<figure class="ledger-scene">{scene}</figure></body>'
+    pages = change(html, "toy/page.html", "</body>", figure)
+    assert len(check_book.faulty_scenes(pages)) == count
+
+
 @pytest.mark.parametrize("alt", ["", 'alt=""', 'alt="  "'])
 def test_image_needs_alternative_text(html, alt):
     pages = change(html, "toy/page.html", 'alt="a curve"', alt)

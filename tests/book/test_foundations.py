@@ -192,7 +192,7 @@ def test_map_shows_the_best_branch(irb120):
 
 
 def test_cloud_page_holds_a_scene(irb120, rng):
-    assert "srcdoc" in workspace.cloud_page(irb120, rng).html
+    assert 'class="ledger-scene"' in workspace.cloud_page(irb120, rng).html
 
 
 def test_document_pages(registry, monkeypatch):

@@ -77,7 +77,7 @@ def test_run_writes_files(dualarm, tmp_path):
     expected += [f"xue.fig03.{s}" for s in ("csv", "html", "json", "png", "svg")]
     assert sorted(path.name for path in tmp_path.iterdir()) == expected
     scene = (tmp_path / "xue.fig03.html").read_text()
-    assert "MeshCat.Viewer" in scene
+    assert 'class="ledger-scene"' in scene
     assert 'src="http' not in scene
 
 

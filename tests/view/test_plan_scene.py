@@ -1,0 +1,18 @@
+"""The scene of a plan measures what the summary of the plan says."""
+
+import pytest
+
+from dualarm_repro.datafiles import data_path
+from dualarm_repro.planning import plan_file
+from dualarm_repro.view.plan_report import plan_scene
+
+
+def test_scene_and_links_agree():
+    plan = plan_file(data_path("scenes", "example_tasks.yaml"), "apf-bidirectional")
+    made = plan_scene(plan, "Two arms and a ball.")
+    nearest, links = made.contents.nearest, plan.links(0.01)
+    # key frames are some of the densified steps, so they can only be farther apart
+    assert links.minimum <= nearest.distance.min() + 1e-12
+    assert nearest.distance.min() == pytest.approx(links.minimum, abs=2e-3)
+    assert made.contents.floor == plan.scene.floor == 0.0
+    assert "ball" in {part.body for part in made.contents.parts}
