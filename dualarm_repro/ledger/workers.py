@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
+from warnings import filterwarnings
 
 from ..errors import InputError, LedgerError
 
@@ -37,6 +38,8 @@ def results(
 
     calls = (delayed(function)(a, b) for function, a, b in tasks)
     if scheduler is None:
+        # joblib renews a worker whose memory has grown; no task is lost, so the user need not know.
+        filterwarnings("ignore", "A worker stopped while some jobs", UserWarning)
         done = Parallel(n_jobs=jobs, return_as="generator")(calls)
         yield from tqdm(done, total=count, desc=title, disable=not progress)
         return
