@@ -62,9 +62,9 @@ lint: $(VENV)/.installed  ## static checks: style and types
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
+lock: | $(UV)  ## resolve the three lock files again
 	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
-	$(UV) pip compile pyproject.toml --extra bench -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-bench.lock
+	for extra in bench lab; do $(UV) pip compile pyproject.toml --extra $$extra -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-$$extra.lock; done
 
 wheel: $(VENV)/.installed  ## build a wheel that carries the data files
 	$(BIN)/python -m hatchling build -t wheel

@@ -13,7 +13,7 @@ from ..ledger.files import to_json
 from ..ledger.record import located, make, record, roots
 from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
-from .item_files import beside_page, links
+from .item_files import beside_page, links, scene_beside_page
 
 _KIND = "pages"
 #: A table of more bytes is not copied into the book; `dualarm run` writes it.
@@ -78,7 +78,7 @@ def card(
     root
         Way from the page up to the top of the book.
     own
-        Whether it stands on the item's own page: there the figure is a file beside it.
+        Whether it stands on the item's own page: there figure and scene are files beside it.
     """
     item_id, drawn = made["id"], pictures(registry, made["id"])
     files = links(made, drawn, root)
@@ -88,7 +88,8 @@ def card(
     elif made["caption"]:
         parts.append(f'<p class="ledger-caption">{escape(made["caption"])}</p>')
     if drawn["scene"] and scene:
-        parts.append(f'<div class="ledger-stage">{drawn["scene"]}</div>')
+        stage = scene_beside_page(drawn["scene"], files) if own else drawn["scene"]
+        parts.append(f'<div class="ledger-stage">{stage}</div>')
     parts.append(card_html(made, root, files, citations(registry, made)))
     place = 'id="card"' if own else f'id="{item_id}"'
     return f'<article class="ledger-item" {place}>{"".join(parts)}</article>'
