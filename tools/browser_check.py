@@ -18,7 +18,7 @@ from browser.chromium import NOT_RUN, WHY_NOT, browser, executable
 from browser.links import dead_links
 from browser.page_checks import look_at
 from browser.report import Report, publish
-from browser.scenes import SCENES, look_at_scenes
+from browser.scenes import SCENES, STAGE, look_at_scenes, spare
 from browser.use import use
 from browser.visit import WIDE
 from browser.without_scripts import read_page
@@ -46,22 +46,27 @@ def sample(pages: Sequence[str], folder: str, one_in: int) -> list[str]:
     return sorted(random.Random(SEED).sample(below, count))
 
 
-async def check(html: Path, chapters: Sequence[str]) -> Report:
+async def check(html: Path, chapters: Sequence[str], *, alone: bool = False) -> Report:
     """Everything that is checked of a built book.
 
     Parameters
     ----------
     chapters
         The pages that are looked at closely.
+    alone
+        Whether no other page is looked at.
     """
-    pages = pages_of(html)
-    closely = [*chapters, *sample(pages, "items", SAMPLED)]
+    pages = list(chapters) if alone else pages_of(html)
+    closely = list(dict.fromkeys([*chapters, *sample(pages, "items", SAMPLED)]))
     quickly = [name for name in pages if name.startswith("items/") and name not in closely]
     quickly += sample(pages, "_modules", SOURCES)
     async with browser() as running:
         report = Report(running.version)
         context = await running.new_context(viewport=WIDE)
         plain = await running.new_context(viewport=WIDE, java_script_enabled=False)
+        stage = await running.new_context(viewport=STAGE)
+        await spare(context)
+        await spare(stage)
 
         async def page(name: str) -> None:
             words = await look_at(context, html, name, report, closely=name in closely)
@@ -69,7 +74,7 @@ async def check(html: Path, chapters: Sequence[str]) -> Report:
                 await read_page(plain, html, name, words, report)
 
         await in_tabs([*closely, *quickly], page, report)
-        await _scenes(context, html, closely, report)
+        await _scenes(stage, html, closely, report)
         await use(context, html, report)
     for name in pages:
         path = html / f"{name}.html"
@@ -100,7 +105,10 @@ async def _scenes(
     shown = [n for n in names if _SCENE_CLASS in (html / f"{n}.html").read_text(encoding="utf-8")]
     moving = 0
     for name in shown:
-        moving += await look_at_scenes(context, html, name, report)
+        try:
+            moving += await look_at_scenes(context, html, name, report)
+        except Error as error:
+            report.add("scenes", name, [str(error).splitlines()[0][:200]])
     if shown and not moving:
         report.add("scenes", "book", ["no scene moves"])
 
@@ -119,7 +127,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not chapters:
         print(f"browser: NOT RUN, no book in {chosen.html}; make book builds it", file=sys.stderr)
         return NOT_RUN
-    report = asyncio.run(check(chosen.html, chapters))
+    report = asyncio.run(check(chosen.html, chapters, alone=bool(chosen.pages)))
     if not chosen.pages:
         publish(report, chosen.html)
     for problem in sorted(report.problems):

@@ -14,6 +14,7 @@ from ..ledger.record import located, make, record, roots
 from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
 from .item_files import beside_page, links, scene_beside_page
+from .running_notebook import shown
 
 _KIND = "pages"
 #: A table of more bytes is not copied into the book; `dualarm run` writes it.
@@ -27,7 +28,7 @@ class Page:
         self.html = html
 
     def _repr_html_(self) -> str:
-        return self.html
+        return shown(self.html)
 
 
 def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:

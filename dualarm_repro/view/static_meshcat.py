@@ -75,6 +75,16 @@ def page_iframe(vis: meshcat.Visualizer, title: str, height: int) -> str:
     )
 
 
+def with_viewer(html: str) -> str:
+    """HTML whose scenes carry the viewer, for a notebook that is not a page of the book."""
+    from_book, pane = escape(_FROM_BOOK.format(viewer=VIEWER)), escape('<div id="pane"></div>')
+    if from_book not in html:
+        return html
+    code = viewer_script().read_text(encoding="utf-8").replace("</script", "<\\/script")
+    loaded = pane + escape(f"<script>{code}</script>")
+    return html.replace(pane, loaded).replace(from_book, escape("show();"))
+
+
 def _page(vis: meshcat.Visualizer, title: str, loader: str, start: str) -> str:
     commands = "[" + ",".join(f'"{text}"' for text in vis.window.commands()) + "]"
     return _BODY.format(title=escape(title), loader=loader, commands=commands, start=start)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from pathlib import Path
 
 from playwright.async_api import BrowserContext, Page
 
 from .page_checks import set_theme
-from .scenes import SCENES
+from .scenes import APART, LOOKS, SCENES, drawn, picture, pixels
 from .visit import visit
 
-#: Milliseconds a scene has to draw its first picture.
-SCENE_TIME = 2500
 _PICTURE = """(frame, source) => {
   const picture = document.createElement("img");
   picture.src = source;
@@ -44,13 +41,18 @@ async def print_open(page: Page, target: Path) -> None:
 
 
 async def _picture_scenes(page: Page) -> None:
-    """Put a picture in the place of every scene, since paper does not draw WebGL."""
+    """Put a picture in the place of every scene, since paper does not draw WebGL.
+
+    The context has to be prepared by ``scenes.spare``.
+    """
     frames = page.locator(SCENES)
     while count := await frames.count():
-        frame = frames.nth(0)
-        await frame.scroll_into_view_if_needed()
-        await page.wait_for_timeout(SCENE_TIME)
-        data = b64encode(await frame.screenshot()).decode()
-        await frame.evaluate(_PICTURE, f"data:image/png;base64,{data}")
+        frame = frames.first
+        await frame.evaluate("(one) => one.scrollIntoView({block: 'center'})")
+        for _ in range(LOOKS):
+            if drawn(pixels(data := await picture(frame))):
+                break
+            await page.wait_for_timeout(APART)
+        await frame.evaluate(_PICTURE, data)
         if await frames.count() >= count:
             raise RuntimeError("a scene could not be replaced by its picture")

@@ -26,7 +26,7 @@ from dualarm_repro.view.printed_view import printed_lines
 from dualarm_repro.view.structured_data import script, structured_data
 from dualarm_repro.view.wording import summary_lines
 
-#: Numbers that the search knows as words of their own, as book/_static/search_numbers.js asks for them.
+#: Numbers that the search knows as words, as book/_static/search_numbers.js asks for them.
 _NUMBER = re.compile(r"\d+[.,]\d+|\d{3,}")
 Page = tuple[str, dict[str, Any], str]
 

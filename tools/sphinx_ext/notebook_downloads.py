@@ -8,6 +8,7 @@ default, since the book then needs no other host.
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 from dualarm_repro.ledger.project import project
+from dualarm_repro.view.running_notebook import IN_BOOK
 
 KERNEL = {"name": "python3", "display_name": "Python 3", "language": "python"}
 FOLDER = "_sources"
@@ -116,6 +118,7 @@ def launch(app: Sphinx, pagename: str, template: str, context: dict[str, Any], t
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Entry point of Sphinx: before the theme lays out its buttons, and after it."""
+    os.environ[IN_BOOK] = "1"  # for kernels that Sphinx starts
     app.add_config_value("launch_addresses", {}, "html")
     app.connect("html-page-context", offer, priority=400)
     app.connect("html-page-context", launch, priority=600)
