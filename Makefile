@@ -13,7 +13,7 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env shell book test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
+.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -29,6 +29,21 @@ book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.
 	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
 	$(BIN)/dualarm export --out _build/html/_static/ledger
 	$(BIN)/python tools/check_book.py
+
+browser: $(VENV)/.installed  ## look at the built book in a browser, installed by apt where missing
+	tools/install_chromium.sh
+	$(BIN)/python tools/browser_check.py
+
+pdf: $(VENV)/.installed  ## print the built book to _build/book.pdf
+	tools/install_chromium.sh
+	$(BIN)/python tools/book_pdf.py
+
+lab: $(VENV)/.lab  ## open the pages as notebooks in JupyterLab
+	$(BIN)/python tools/lab_notebooks.py _build/lab
+	$(BIN)/jupyter lab _build/lab
+
+notebooks-test: $(VENV)/.installed  ## run every notebook of the built book from a wheel, outside the clone
+	$(BIN)/python tools/notebooks_test.py
 
 test: $(VENV)/.installed  ## run the whole test suite
 	$(BIN)/python tools/prerun.py --records
@@ -66,9 +81,10 @@ lint: $(VENV)/.installed  ## static checks: style and types
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-lock: | $(UV)  ## resolve requirements.lock and requirements-bench.lock again
+lock: | $(UV)  ## resolve the three lock files again
 	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock
 	$(UV) pip compile pyproject.toml --extra bench -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-bench.lock
+	$(UV) pip compile pyproject.toml --extra dev --extra lab -c requirements.lock --universal --python-version 3.11 --generate-hashes -q -o requirements-lab.lock
 
 wheel: $(VENV)/.installed  ## build a wheel that carries the data files
 	$(BIN)/python -m hatchling build -t wheel
@@ -88,6 +104,6 @@ $(VENV)/.installed: requirements.lock pyproject.toml | $(UV)
 	$(UV) pip install -q --python $(BIN)/python --no-deps --no-build-isolation -e .
 	touch $@
 
-$(VENV)/.bench: $(VENV)/.installed requirements-bench.lock
-	$(UV) pip install -q --python $(BIN)/python --require-hashes -r requirements-bench.lock
+$(VENV)/.bench $(VENV)/.lab: $(VENV)/.%: $(VENV)/.installed requirements-%.lock
+	$(UV) pip install -q --python $(BIN)/python --require-hashes -r requirements-$*.lock
 	touch $@

@@ -19,7 +19,7 @@ from prerun import ROOT, notebooks, toc_pages
 
 Pages = Mapping[str, BeautifulSoup]
 MEGABYTE = 1_000_000
-LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 8 * MEGABYTE
+LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 3 * MEGABYTE
 LARGEST_SCENE = 300_000
 _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
@@ -187,9 +187,9 @@ def network_use(pages: Pages, html: Path) -> list[str]:
 
 
 def machine_paths(html: Path, folders: Iterable[Path]) -> list[str]:
-    """Pages that name a folder of the machine they were built on."""
+    """Pages and notebooks that name a folder of the machine they were built on."""
     lines = []
-    for path in sorted(html.rglob("*.html")):
+    for path in sorted([*html.rglob("*.html"), *html.rglob("*.ipynb")]):
         text = unescape(path.read_text(encoding="utf-8"))
         lines += [f"{path.relative_to(html)}: names {f}" for f in folders if str(f) in text]
     return lines

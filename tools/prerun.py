@@ -31,6 +31,7 @@ from dualarm_repro.papers import load
 from dualarm_repro.sources import graph
 from dualarm_repro.view.page import pictures
 from dualarm_repro.view.rendering import TEMPLATES
+from dualarm_repro.view.running_notebook import IN_BOOK
 
 ROOT = Path(__file__).resolve().parents[1]
 READER = {"name": "myst_nb_md", "type": "plugin"}
@@ -179,6 +180,7 @@ def main() -> int:
     config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
     build = ROOT / "_build"
     isolate_kernels(build / ".ipython")
+    os.environ[IN_BOOK] = "1"
     book = ROOT / "book"
     if missing := [page for page in toc_pages(book) if not (book / f"{page}.md").is_file()]:
         print(f"in _toc.yml, but no such file: {', '.join(missing)}", file=sys.stderr)

@@ -6,8 +6,10 @@ by the cards, tables and the command line, which link to them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from html import escape
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +26,8 @@ from dualarm_repro.view.printed_view import printed_lines
 from dualarm_repro.view.structured_data import script, structured_data
 from dualarm_repro.view.wording import summary_lines
 
+#: Numbers that the search knows as words, as book/_static/search_numbers.js asks for them.
+_NUMBER = re.compile(r"\d+[.,]\d+|\d{3,}")
 Page = tuple[str, dict[str, Any], str]
 
 
@@ -49,10 +53,16 @@ def searchable(made: dict[str, Any]) -> nodes.document:
     section = nodes.section(ids=["card"])
     section += nodes.title(text=f"{made['id']}: {made['title']}")
     told = [*summary_lines(made).values(), *printed_lines(made), made["caption"] or ""]
-    for text in [made["id"], made["place"], *told, *made["missing"]]:
+    texts = [made["id"], made["place"], *told, *made["missing"]]
+    for text in [*texts, " ".join(dict.fromkeys(chain.from_iterable(map(number_words, texts))))]:
         section += nodes.paragraph(text=text)
     tree += section
     return tree
+
+
+def number_words(text: str) -> list[str]:
+    """The numbers of a text as words, since the search skips what consists of digits."""
+    return [f"number_{re.sub('[.,]', '_', found)}" for found in _NUMBER.findall(text)]
 
 
 def collect(app: Sphinx) -> Iterator[Page]:

@@ -1,0 +1,147 @@
+"""3-D scenes draw something, seen in their pixels, and those that carry a motion move."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64decode
+from binascii import Error
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from playwright.async_api import BrowserContext, Locator
+
+from .report import Report
+from .visit import visit
+
+SCENES = "iframe.ledger-scene"
+#: A small screen and small frames, since scenes are drawn without a graphics card here.
+STAGE = {"width": 400, "height": 400}
+_SMALL = "iframe.ledger-scene { width: 320px !important; height: 240px !important; }"
+#: Share of the pixels of a scene that have to be coloured; ground and grid are grey and pale.
+LEAST_DRAWN = 0.005
+#: A pixel is coloured if its channels are so far apart, of 255.
+COLOURED = 60
+#: Milliseconds between two looks, and looks until a scene counts as still or blank.
+APART, LOOKS = 400, 40
+_SPARED = """(() => {
+  if (window === top) return;
+  const get = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, options) {
+    const kept = { ...options, preserveDrawingBuffer: true, antialias: SMOOTH };
+    return get.call(this, kind, kind.startsWith("webgl") ? kept : options);
+  };
+  window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 333);
+})();"""
+_PIXELS = """(canvas) => {
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  const on = copy.getContext("2d");
+  on.fillStyle = "#fff";
+  on.fillRect(0, 0, copy.width, copy.height);
+  on.drawImage(canvas, 0, 0);
+  return copy.toDataURL("image/png");
+}"""
+_COMMAND = re.compile(r'"([A-Za-z0-9+/]{8,}={0,2})"')
+
+
+async def spare(context: BrowserContext, *, smooth: bool = False) -> None:
+    """Let scenes be read after they were drawn, and draw three pictures a second.
+
+    Without a graphics card a scene would otherwise keep the machine busy.
+
+    Parameters
+    ----------
+    smooth
+        Whether edges are smoothed, which takes longer.
+    """
+    await context.add_init_script(_SPARED.replace("SMOOTH", "true" if smooth else "false"))
+
+
+async def look_at_scenes(context: BrowserContext, html: Path, name: str, report: Report) -> int:
+    """Check every scene of a page; the number of those that move.
+
+    Parameters
+    ----------
+    context
+        One that is prepared by :func:`spare`.
+    """
+    moving = 0
+    async with visit(context, html / f"{name}.html") as made:
+        await made.page.add_style_tag(content=_SMALL)
+        frames = made.page.locator(SCENES)
+        for number in range(await frames.count()):
+            frame = frames.first
+            await frame.evaluate("(one) => one.scrollIntoView({block: 'center'})")
+            lines = []
+            if not await _until(frame, drawn):
+                lines.append(f"scene {number + 1} draws nothing")
+            elif await _has_motion(frame):
+                first = pixels(await picture(frame))
+                moves = await _until(frame, lambda now, first=first: differs(first, now))
+                moving += moves
+                lines += [] if moves else [f"scene {number + 1} has a motion and stands still"]
+            report.add("scenes", name, lines)
+            await frame.evaluate("(one) => one.remove()")  # it would go on drawing
+    return moving
+
+
+async def picture(frame: Locator) -> str:
+    """What a scene has drawn as a ``data:`` address; empty while it has no canvas."""
+    inner = await _document(frame)
+    canvas = inner.locator("canvas")
+    return await canvas.first.evaluate(_PIXELS) if await canvas.count() else ""
+
+
+def pixels(address: str) -> np.ndarray:
+    """Pixels (height, width, 3) of a picture, one black pixel if there is none."""
+    data = b64decode(address.partition(",")[2])
+    if not data:
+        return np.zeros((1, 1, 3), dtype=int)
+    return np.asarray(Image.open(BytesIO(data)).convert("RGB")).astype(int)
+
+
+def drawn(found: np.ndarray) -> bool:
+    """Whether there is more than an empty stage."""
+    spread = found.max(axis=2) - found.min(axis=2)
+    return float((spread > COLOURED).mean()) >= LEAST_DRAWN
+
+
+def differs(first: np.ndarray, second: np.ndarray) -> bool:
+    """Whether something has moved from one picture to another."""
+    if first.shape != second.shape:
+        return False
+    return float((np.abs(first - second).max(axis=2) > COLOURED).mean()) > 1e-4
+
+
+def has_motion(content: str) -> bool:
+    """Whether the commands of a scene contain an animation."""
+    for found in _COMMAND.finditer(content):
+        try:
+            if b"set_animation" in b64decode(found[1])[:200]:
+                return True
+        except Error:
+            continue
+    return False
+
+
+async def _document(frame: Locator):  # type: ignore[no-untyped-def]
+    """The document that draws: that of the frame, or of a frame within it."""
+    inner = frame.content_frame
+    below = inner.locator("iframe")
+    return below.first.content_frame if await below.count() else inner
+
+
+async def _has_motion(frame: Locator) -> bool:
+    inner = await _document(frame)
+    return has_motion(await inner.locator("html").evaluate("(one) => one.outerHTML"))
+
+
+async def _until(frame: Locator, holds: Callable[[np.ndarray], bool]) -> bool:
+    for _ in range(LOOKS):
+        if holds(pixels(await picture(frame))):
+            return True
+        await frame.page.wait_for_timeout(APART)
+    return False
