@@ -35,7 +35,7 @@ def shown(html: str) -> str:
 
 @cache
 def _style() -> str:
-    """The style sheets of scenes, cards and tables: of the latter in a wheel beside this file, in a clone the book's."""
+    """Style sheets of cards and scenes; the former in a wheel beside this file, else the book's."""
     installed = Path(__file__).with_name("ledger.css")
     path = installed if installed.is_file() else data_root().parent / "book/_static/ledger.css"
     scenes = ASSETS / "scene.css"

@@ -27,7 +27,8 @@ def page():
     layers = [Layer("low", np.eye(3), {}), Layer("high", 1.0 - np.eye(3), {})]
     plane = map_slice("m", ("x [m]", x), ("y [m]", x), layers, quantity="J", shown=0)
     script = (ASSETS / "slice.js").read_text(encoding="utf-8")
-    return f"{drawn.html}{plane.html}<script>{script}</script><script>onload = () => {{{_ACTS}}}</script>"
+    acts = f"<script>onload = () => {{{_ACTS}}}</script>"
+    return f"{drawn.html}{plane.html}<script>{script}</script>{acts}"
 
 
 @needs_browser
