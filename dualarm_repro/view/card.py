@@ -23,7 +23,7 @@ from .rendering import render
 from .rule_sentences import SIGN, rule_sentence
 from .source_code import highlighted, source_of
 from .style import BLACK, SMALL, WIDTH, house_style
-from .theme import with_dark_rules
+from .theme import lean, with_dark_rules
 from .wording import (
     obtained_line,
     printed_line,
@@ -35,6 +35,7 @@ from .wording import (
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 400_000
+_INNER_DPI = 144  # of clouds and surfaces, which are pixels within a drawing
 _FIGURE = Markup(
     '<figure class="ledger-figure"><p class="ledger-finding">{}</p>'
     '<img alt="{}" src="data:image/{};base64,{}">{}</figure>'
@@ -52,7 +53,8 @@ def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> Markup:
 
     with mpl.rc_context({"svg.hashsalt": "dualarm_repro"}):
         # Labels of 3-D axes stick out of the space that the layout keeps.
-        data, kind = _saved(figure, "svg", metadata={"Date": None}), "svg+xml"
+        data = lean(_saved(figure, "svg", metadata={"Date": None}, dpi=_INNER_DPI))
+        kind = "svg+xml"
         if len(data) > _LARGEST_SVG:
             data, kind = _saved(figure, "png", dpi=dpi), "png"
         else:

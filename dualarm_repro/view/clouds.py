@@ -7,13 +7,14 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from ..arms.occupancy import RotationVolume
 from ..arms.workspace import VoxelVolume
 from .labels import name_ends, name_point
 from .style import BLACK, BLUE, ORANGE, WIDTH, house_style, name_axes, same_scale
 
-_FAINT = 0.12
+_CELL = 0.03  # of a picture of the density [m]
 
 
 def volume_figure(
@@ -27,7 +28,7 @@ def volume_figure(
         space = figure.add_subplot(grid[0, 0], projection="3d")
         space.scatter(*points.T, s=0.1, c=points[:, 2], cmap="cividis", alpha=0.35, rasterized=True)
         name_axes(space)
-        same_scale(space)
+        same_scale(space, zoom=0.88)
         space.set_title(f"{len(points)} positions of the flange")
         _section(figure.add_subplot(grid[0, 1]), points)
         volume = figure.add_subplot(grid[1, :])
@@ -65,10 +66,22 @@ def cloud_figure(clouds: Mapping[str, np.ndarray], colors: Sequence[str]) -> Any
         views = (("from above", 0), ("along x", 2))
         for ax, (title, up) in zip(axes, views, strict=True):
             for (name, points), color in zip(clouds.items(), colors, strict=True):
-                ax.plot(points[:, 1], points[:, up], ",", color=color, alpha=_FAINT,
-                        rasterized=True)  # fmt: skip
+                _density(ax, points[:, 1], points[:, up], color)
                 outer = np.sign(points[:, 1].mean()) * 0.32 * np.ptp(points[:, 1])
                 middle = np.array([points[:, 1].mean() + outer, points[:, up].max()])
                 name_point(ax, middle, name, (0, 0), color=color, weight="bold", fontsize=10)
             ax.set(xlabel="y [m]", ylabel=f"{'xyz'[up]} [m]", title=title, aspect="equal")
+            ax.autoscale()
+            ax.margins(0.03)
     return figure
+
+
+def _density(ax: Any, x: np.ndarray, y: np.ndarray, color: str) -> None:
+    """How many points lie over each place, as the strength of a colour."""
+    edges = [np.arange(v.min() - _CELL, v.max() + 2 * _CELL, _CELL) for v in (x, y)]
+    counts = np.histogram2d(x, y, bins=edges)[0].T
+    picture = np.zeros((*counts.shape, 4))
+    picture[..., :3] = to_rgb(color)
+    picture[..., 3] = 0.75 * np.sqrt(counts / np.quantile(counts[counts > 0], 0.98)).clip(0, 1)
+    ends = (edges[0][0], edges[0][-1], edges[1][0], edges[1][-1])
+    ax.imshow(picture, extent=ends, origin="lower", interpolation="none", zorder=2)

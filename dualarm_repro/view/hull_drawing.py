@@ -32,7 +32,7 @@ def hull_figure(placed: PlacedArm, q: np.ndarray, hull: ConvexHull, rings: np.nd
             widest = closed[int(np.ptp(closed, axis=1).sum(axis=1).argmax())]
             texts = [
                 name_point(ax, widest[widest[:, 2].argmax()], "circle", (26, 10), color=RED),
-                name_point(ax, points[0], "arm", (-24, 6), color="0.3"),
+                name_point(ax, points[0], "arm", (-26, 10)),
             ]
             push_apart(figure, texts)
         axes[0].set_title("the hull (blue) from two sides")

@@ -112,9 +112,9 @@ def readings_figure(
                 printed[i], printed[j], "X", color=RED, ms=11, mec="white", label="printed point"
             )
             ax.set(xlabel=f"{'xyz'[i]} [m]", ylabel=f"{'xyz'[j]} [m]", aspect="equal")
-        figure.legend(
-            *ax.get_legend_handles_labels(), loc="outside upper left", ncols=3, markerscale=1.5
-        )
+        legend = figure.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3)
+        for handle in legend.legend_handles:
+            handle.set(markersize=8, alpha=1.0)
         below, rows = figure.add_subplot(grid[1, :]), np.arange(len(shares))
         for shift, color, column in zip((-0.2, 0.2), colors, shares.columns, strict=True):
             below.barh(rows + shift, 100 * shares[column], 0.38, color=color)

@@ -14,7 +14,7 @@ from dualarm_repro.view.crossing import nearest
 from dualarm_repro.view.labels import name_ends, name_points
 from dualarm_repro.view.legibility import faults
 from dualarm_repro.view.style import BLUE, ORANGE, WIDTH, house_style, ink
-from dualarm_repro.view.theme import with_dark_rules
+from dualarm_repro.view.theme import lean, with_dark_rules
 from dualarm_repro.view.window import nearest_to_boxes, opening
 
 
@@ -111,13 +111,19 @@ def test_drawing_in_a_page_has_title_text_and_dark_rules(ax):
     assert "<figcaption>" not in figure_html(plt.figure(), "nothing", "It rises.")
 
 
+def test_lean_drawing_keeps_every_outline():
+    svg = b'<path d="M 1.23456 7.891 L 10 0.5" transform="scale(0.12345)"/>'
+    assert lean(svg) == b'<path d="M 1.23 7.89 L 10 0.5" transform="scale(0.12345)"/>'
+
+
 def test_dark_rules_reach_the_colours_that_are_drawn(ax):
     ax.plot([0, 1], [0, 1], color=BLUE)
+    ax.plot([0, 1], [1, 0], color="0.25")
     buffer = BytesIO()
     ax.figure.savefig(buffer, format="svg")
     svg = with_dark_rules(buffer.getvalue()).decode()
     rules = svg.split("<style", 1)[1].split("</style>", 1)[0]
-    for selector in ("stroke: #0072b2", "fill: #ffffff"):  # the line and the paper
+    for selector in ("stroke: #0072b2", "stroke: #404040", "fill: #ffffff"):
         assert selector in svg.split("</style>", 1)[1]
         assert re.search(rf'\[style\*="{selector}"\]{{[^}}]*!important}}', rules)
     assert rules.startswith(' type="text/css">@media (prefers-color-scheme: dark)')
