@@ -22,7 +22,7 @@ from .printed_view import parts, printed_html
 from .rendering import render
 from .rule_sentences import SIGN, rule_sentence
 from .source_code import highlighted, source_of
-from .style import BLACK, SMALL, WIDTH, house_style
+from .style import BLACK, PAD, SMALL, WIDTH, house_style
 from .theme import lean, with_dark_rules
 from .wording import (
     obtained_line,
@@ -67,7 +67,7 @@ def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> Markup:
 
 def _saved(figure: Any, form: str, **options: Any) -> bytes:
     buffer = BytesIO()
-    figure.savefig(buffer, format=form, bbox_inches="tight", **options)
+    figure.savefig(buffer, format=form, bbox_inches="tight", pad_inches=PAD, **options)
     return buffer.getvalue()
 
 

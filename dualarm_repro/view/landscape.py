@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -112,9 +113,11 @@ def readings_figure(
                 printed[i], printed[j], "X", color=RED, ms=11, mec="white", label="printed point"
             )
             ax.set(xlabel=f"{'xyz'[i]} [m]", ylabel=f"{'xyz'[j]} [m]", aspect="equal")
-        legend = figure.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3)
-        for handle in legend.legend_handles:
+        handles, names = ax.get_legend_handles_labels()
+        large = [copy(handle) for handle in handles]
+        for handle in large:
             handle.set(markersize=8, alpha=1.0)
+        figure.legend(large, names, loc="outside upper left", ncols=3)
         below, rows = figure.add_subplot(grid[1, :]), np.arange(len(shares))
         for shift, color, column in zip((-0.2, 0.2), colors, shares.columns, strict=True):
             below.barh(rows + shift, 100 * shares[column], 0.38, color=color)

@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import Bbox
 
-from .style import PAGE_PX, SMALL
+from .style import PAD, PAGE_PX, SMALL
 
 #: How far two texts, or a text and the edge of its box, may overlap [pt].
 _SLACK = 1.5
@@ -68,7 +68,7 @@ def _not_drawn(figure: Any) -> Iterator[int]:
 
 
 def _small(figure: Any, texts: list[tuple[Text, Bbox]], page_px: float) -> Iterator[str]:
-    width = 96 * figure.get_tightbbox().width + 96 * 0.2
+    width = 96 * (figure.get_tightbbox().width + 2 * PAD)
     scale = min(1.0, page_px / width)
     for text, _ in texts:
         size = scale * text.get_fontsize()
@@ -80,10 +80,10 @@ def _outside(figure: Any, texts: list[tuple[Text, Bbox]]) -> Iterator[str]:
     # Saved is what the drawing takes, which may be more than the paper.
     paper = figure.get_tightbbox().transformed(figure.dpi_scale_trans)
     for text, box in texts:
-        if _sticks_out(box, paper) > _slack(figure):
-            yield f"{_short(text)} leaves the paper"
-        elif _cut(text, box) > _slack(figure):
+        if _cut(text, box) > _slack(figure):
             yield f"{_short(text)} is clipped"
+        elif _sticks_out(box, paper) > _slack(figure):
+            yield f"{_short(text)} leaves the paper"
 
 
 def _cut(text: Text, box: Bbox) -> float:

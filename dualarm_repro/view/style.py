@@ -29,6 +29,8 @@ FIXED_BLACK, FIXED_WHITE = "#010101", "#FEFEFE"
 #: Width of the column of text in which a figure is shown [CSS px], and as inches of a figure.
 PAGE_PX = 720
 WIDTH = PAGE_PX / 96
+#: Free around a figure in a page [in].
+PAD = 0.05
 #: Smallest letters [pt], at the width of the page.
 SMALL = 8.0
 
