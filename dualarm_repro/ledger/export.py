@@ -10,6 +10,7 @@ import pandas as pd
 
 from .evaluation import Evaluation
 from .files import to_json, write, write_text
+from .finding import entitled
 from .printed import leaves
 
 #: Fixed so that the same figure gives the same SVG; matplotlib else draws a random salt.
@@ -47,7 +48,10 @@ def export(
     written = [write_text(folder / f"{name}.json", to_json(made))]
     table = data_table(evaluation, made)
     written.append(write_text(folder / f"{name}.csv", table.to_csv(index=False)))
-    figure = result.figure() if result and result.figure else card(made)
+    if result and result.figure:
+        figure = entitled(result.figure(), result.told())
+    else:
+        figure = card(made)
     try:
         with mpl.rc_context({"svg.hashsalt": _SVG_SALT}):
             for suffix, extra in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 160})):

@@ -9,6 +9,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from ..ledger.finding import finding_of
 from ..ledger.meaning import MEANING
 from ..ledger.printed import leaves
 from ..ledger.verdict import Verdict
@@ -21,7 +22,8 @@ from .printed_view import parts, printed_html
 from .rendering import render
 from .rule_sentences import SIGN, rule_sentence
 from .source_code import highlighted, source_of
-from .style import BLACK, house_style
+from .style import BLACK, PAD, SMALL, WIDTH, house_style
+from .theme import lean, with_dark_rules
 from .wording import (
     obtained_line,
     printed_line,
@@ -32,33 +34,40 @@ from .wording import (
 )
 
 #: A figure whose drawing would be larger than this is shown as pixels.
-_LARGEST_SVG = 250_000
+_LARGEST_SVG = 400_000
+_INNER_DPI = 144  # of clouds and surfaces, which are pixels within a drawing
 _FIGURE = Markup(
-    '<figure class="ledger-figure"><img alt="{}" src="data:image/{};base64,{}">'
-    "<figcaption>{}</figcaption></figure>"
+    '<figure class="ledger-figure"><p class="ledger-finding">{}</p>'
+    '<img alt="{}" src="data:image/{};base64,{}">{}</figure>'
 )
 
 
 def figure_html(figure: Any, alt: str, caption: str, dpi: int = 130) -> Markup:
     """A figure as an inline image with alternative text and a caption; the figure is closed.
 
-    A drawing stays sharp at any size; one of very many strokes is shown as pixels.
+    The first sentence of the caption is the title. A drawing stays sharp at any size and follows
+    the theme of the page; one of very many strokes is shown as pixels.
     """
     import matplotlib as mpl
     import matplotlib.pyplot as plt
 
     with mpl.rc_context({"svg.hashsalt": "dualarm_repro"}):
         # Labels of 3-D axes stick out of the space that the layout keeps.
-        data, kind = _saved(figure, "svg", metadata={"Date": None}), "svg+xml"
+        data = lean(_saved(figure, "svg", metadata={"Date": None}, dpi=_INNER_DPI))
+        kind = "svg+xml"
         if len(data) > _LARGEST_SVG:
             data, kind = _saved(figure, "png", dpi=dpi), "png"
+        else:
+            data = with_dark_rules(data)
     plt.close(figure)
-    return _FIGURE.format(alt, kind, b64encode(data).decode(), caption)
+    title, rest = finding_of(caption)
+    below = Markup("<figcaption>{}</figcaption>").format(rest) if rest else ""
+    return _FIGURE.format(title, alt, kind, b64encode(data).decode(), below)
 
 
 def _saved(figure: Any, form: str, **options: Any) -> bytes:
     buffer = BytesIO()
-    figure.savefig(buffer, format=form, bbox_inches="tight", **options)
+    figure.savefig(buffer, format=form, bbox_inches="tight", pad_inches=PAD, **options)
     return buffer.getvalue()
 
 
@@ -172,14 +181,14 @@ def card_figure(made: dict[str, Any]) -> Any:
         ["", made["pending"] or ""]
     ]
     with house_style():
-        figure, ax = plt.subplots(figsize=(10, 1.2 + 0.4 * len(rows)))
+        figure, ax = plt.subplots(figsize=(WIDTH, 0.8 + 0.3 * len(rows)))
         ax.axis("off")
         ax.set_title(f"{made['id']}: {made['verdict']}", color=BLACK, loc="left")
         cells = [[_cut(cell) for cell in row] for row in rows]
         header = ["", "statement"]
         table = ax.table(cells, colLabels=header, loc="upper center", cellLoc="left")
         table.auto_set_font_size(False)
-        table.set_fontsize(8)
+        table.set_fontsize(SMALL)
         table.auto_set_column_width(list(range(len(header))))
     return figure
 

@@ -8,7 +8,10 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .style import BLACK, BLUE, GREEN, ORANGE, RED, house_style
+from .labels import name_point, push_apart
+from .style import BLACK, BLUE, GREEN, ORANGE, RED, WIDTH, house_style
+
+_NAMES = ("attraction", "repulsion", "resultant")
 
 
 def force_field_figure(
@@ -32,27 +35,27 @@ def force_field_figure(
     values = potential(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(x.shape)
     outside = np.hypot(x - centre[0], y - centre[1]) > 1.02 * radius
     with house_style():
-        figure, ax = plt.subplots(figsize=(7.4, 5.2))
+        figure, ax = plt.subplots(figsize=(WIDTH, 5.4))
         levels = np.quantile(values[outside], np.linspace(0.02, 0.97, 22))
-        ax.contour(x, y, np.where(outside, values, np.nan), levels=np.unique(levels), cmap="Greys",
-                   linewidths=0.8)  # fmt: skip
-        ax.add_patch(
-            plt.Circle((centre[0], centre[1]), radius, color=ORANGE, alpha=0.5, label="obstacle")
-        )
-        ax.plot(*goal, "*", color=BLACK, ms=14, label="goal")
-        for k, point in enumerate(points):
-            attraction, repulsion = forces(point)
+        ax.contour(x, y, np.where(outside, values, np.nan), levels=np.unique(levels), colors="0.7",
+                   linewidths=0.7)  # fmt: skip
+        ax.add_patch(plt.Circle((centre[0], centre[1]), radius, color=ORANGE, alpha=0.5))
+        ax.plot(*goal, "*", color=BLACK, ms=14)
+        both = np.array([forces(point) for point in points])
+        told = int(np.linalg.norm(both[:, 1], axis=1).argmax())
+        texts = [name_point(ax, centre, "obstacle", (0, 0)), name_point(ax, goal, "goal", (0, 14))]
+        for k, (point, (attraction, repulsion)) in enumerate(zip(points, both, strict=True)):
             scale = 0.22 / max(np.linalg.norm(attraction), np.linalg.norm(repulsion))
-            arrows = zip(
-                (attraction, repulsion, attraction + repulsion),
-                (GREEN, RED, BLUE),
-                ("attraction", "repulsion", "resultant"),
+            for force, color, name in zip(
+                (attraction, repulsion, attraction + repulsion), (GREEN, RED, BLUE), _NAMES,
                 strict=True,
-            )
-            for force, color, name in arrows:
+            ):  # fmt: skip
                 ax.quiver(*point, *(scale * force), color=color, angles="xy", scale_units="xy",
-                          scale=1, width=0.006, label=None if k else name)  # fmt: skip
-            ax.plot(*point, "o", color=BLACK, ms=4)
+                          scale=1, width=0.006, zorder=3)  # fmt: skip
+                if k == told:
+                    texts.append(name_point(ax, point + scale * force, name, (0, 9), color=color,
+                                            weight="bold"))  # fmt: skip
+            ax.plot(*point, "o", color=BLACK, ms=4, zorder=4)
         ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-        ax.legend(loc="lower left", ncols=2)
+        push_apart(figure, texts[1:])
     return figure

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
-from .style import BLACK, BLUE, GREEN, ORANGE, RED, house_style
+from .style import BLACK, BLUE, GREEN, ORANGE, RED, WIDTH, house_style
 
 _STEPS = 49
 
@@ -27,7 +28,7 @@ def slices_figure(
     projected onto each plane.
     """
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(13, 4.4))
+        figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 3.9))
         for ax, (i, j) in zip(axes, ((0, 1), (0, 2), (1, 2)), strict=True):
             across, up = (np.linspace(box[k, 0], box[k, 1], _STEPS) for k in (i, j))
             points = np.tile(optimum, (_STEPS * _STEPS, 1))
@@ -37,14 +38,15 @@ def slices_figure(
             shown = np.ma.masked_less_equal(values, 0.0)
             ax.set_facecolor("0.88")
             ax.grid(False)
-            mesh = ax.pcolormesh(across, up, shown.T, cmap="viridis", vmin=0, vmax=best)
+            mesh = ax.pcolormesh(across, up, shown.T, cmap="viridis", vmin=0, vmax=best,
+                                 rasterized=True)  # fmt: skip
             ax.contour(across, up, values.T, levels=[0.99 * best], colors=RED, linewidths=1.5)
             ax.plot(optimum[i], optimum[j], "*", color=RED, ms=13, mec="white", label="optimum")
             ax.plot(printed[i], printed[j], "X", color=ORANGE, ms=10, mec=BLACK, label="printed")
             ax.set(xlabel=f"{'xyz'[i]} [m]", ylabel=f"{'xyz'[j]} [m]", aspect="equal")
         axes[0].plot([], [], color=RED, label="99 % of the best")
-        figure.colorbar(mesh, ax=axes, label="fitness", shrink=0.9)
-        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        figure.colorbar(mesh, ax=axes, label="fitness", location="bottom", shrink=0.6, aspect=40)
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
     return figure
 
 
@@ -56,7 +58,7 @@ def sensitivity_figure(table: pd.DataFrame, nominal: np.ndarray, printed: np.nda
     """
     names = list(dict.fromkeys(table["assumption"]))
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(7.6, 0.24 * len(names) + 1.4), sharey=True)
+        figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 0.26 * len(names) + 1.4), sharey=True)
         for k, (ax, color) in enumerate(zip(axes, (BLUE, GREEN, ORANGE), strict=True)):
             for row, name in enumerate(names):
                 values = table.loc[table["assumption"] == name, "xyz"[k]].dropna()
@@ -75,7 +77,7 @@ def sensitivity_figure(table: pd.DataFrame, nominal: np.ndarray, printed: np.nda
         axes[0].set_ylabel("assumption")
         axes[0].plot([], [], color=BLACK, label="declared assumptions")
         axes[0].plot([], [], color=RED, ls="--", label="printed point")
-        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure
 
 
@@ -96,26 +98,32 @@ def readings_figure(
     """
     colors = (BLUE, ORANGE)
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(14, 5.4), width_ratios=(1, 1, 1.1))
-        for ax, (i, j) in zip(axes[:2], ((0, 1), (1, 2)), strict=True):
+        figure = plt.figure(figsize=(WIDTH, 4.2 + 0.26 * len(shares)))
+        grid = figure.add_gridspec(2, 2, height_ratios=(3.2, 0.26 * len(shares) + 0.3))
+        for column, (i, j) in enumerate(((0, 1), (1, 2))):
+            ax = figure.add_subplot(grid[0, column])
             for color, (name, points) in zip(colors, optima, strict=True):
-                ax.plot(points[:, i], points[:, j], ".", color=color, ms=3, alpha=0.35, label=name)
+                ax.plot(points[:, i], points[:, j], ".", color=color, ms=3, alpha=0.35, label=name,
+                        rasterized=True)  # fmt: skip
             angle = np.linspace(0, 2 * np.pi, 90)
             for radius, dash in zip(radii, ("-", "--"), strict=True):
                 circle = printed[i] + radius * np.cos(angle), printed[j] + radius * np.sin(angle)
-                ax.plot(*circle, color=BLACK, lw=1.2, ls=dash, label=f"within {radius:g} m")
+                ax.plot(*circle, color=BLACK, lw=1.4, ls=dash, label=f"within {radius:g} m")
             ax.plot(
                 printed[i], printed[j], "X", color=RED, ms=11, mec="white", label="printed point"
             )
             ax.set(xlabel=f"{'xyz'[i]} [m]", ylabel=f"{'xyz'[j]} [m]", aspect="equal")
-        rows = np.arange(len(shares))
+        handles, names = ax.get_legend_handles_labels()
+        large = [copy(handle) for handle in handles]
+        for handle in large:
+            handle.set(markersize=8, alpha=1.0)
+        figure.legend(large, names, loc="outside upper left", ncols=3)
+        below, rows = figure.add_subplot(grid[1, :]), np.arange(len(shares))
         for shift, color, column in zip((-0.2, 0.2), colors, shares.columns, strict=True):
-            axes[2].barh(rows + shift, 100 * shares[column], 0.38, color=color, label=column)
-        axes[2].set_yticks(rows, shares.index)
-        axes[2].invert_yaxis()
-        share = f"optima within {radii[1]:g} m of the printed point [%]"
-        axes[2].set(xlabel=share, ylabel="objective")
-        figure.legend(
-            *axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5, markerscale=2
+            below.barh(rows + shift, 100 * shares[column], 0.38, color=color)
+        below.set_yticks(rows, shares.index)
+        below.invert_yaxis()
+        below.set(
+            xlabel=f"optima within {radii[1]:g} m of the printed point [%]", ylabel="objective"
         )
     return figure

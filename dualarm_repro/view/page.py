@@ -14,6 +14,7 @@ from ..ledger.record import located, make, record, roots
 from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
 from .item_files import beside_page, links, scene_beside_page
+from .legibility import faults
 from .running_notebook import shown
 
 _KIND = "pages"
@@ -105,8 +106,9 @@ def citations(registry: Registry, made: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def pictures(registry: Registry, item_id: str) -> dict[str, str | None]:
-    """Figure and 3-D scene of an item as HTML and its data as CSV, made now or kept from before."""
+def pictures(registry: Registry, item_id: str) -> dict[str, Any]:
+    """Figure and 3-D scene of an item as HTML, its data as CSV, and what is wrong with the figure
+    (see ``legibility.faults``), made now or kept from before."""
     registry.look(item_id)
     found = kept.read(registry, _KIND, item_id)
     if found is None:
@@ -117,16 +119,19 @@ def pictures(registry: Registry, item_id: str) -> dict[str, str | None]:
     return found
 
 
-def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, str | None]:
+def _draw(made: dict[str, Any], evaluation: Evaluation) -> dict[str, Any]:
     result = evaluation.result
     if result is None:
-        return {"figure": None, "scene": None, "csv": None}
+        return {"figure": None, "scene": None, "csv": None, "faults": []}
     csv = data_table(evaluation, made).to_csv(index=False)
-    figure = None
+    figure, wrong = None, []
     if result.figure and result.alt:
-        figure = figure_html(result.figure(), result.alt, result.told())
+        drawn = result.figure()
+        wrong = faults(drawn)
+        figure = figure_html(drawn, result.alt, result.told())
     return {
         "figure": figure,
         "scene": result.scene().page_html() if result.scene else None,
         "csv": csv if len(csv) <= _LARGEST_CSV else None,
+        "faults": wrong,
     }

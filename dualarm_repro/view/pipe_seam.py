@@ -6,9 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from mpl_toolkits.mplot3d import proj3d
 
 from ..welding import Seam
-from .style import BLUE, ORANGE, PALETTE, RED, axes_3d, house_style
+from .labels import name_point, push_apart
+from .style import BLUE, ORANGE, PALETTE, RED, axes_3d, house_style, ink, same_scale
+
+_FLAT = 0.25  # height by width of a curve that is drawn higher than it is
 
 
 def pipes_figure(
@@ -22,34 +26,54 @@ def pipes_figure(
     share, b = np.meshgrid(np.linspace(0, 1, 9), angle)
     height = top[:, np.newaxis] * (1 - share) + share * (radius_main + branch_length)
     with house_style():
-        figure, ax = axes_3d(6.8, 5.0, elev=28, azim=-55)
-        ax.plot_surface(
-            x, radius_main * np.cos(a), radius_main * np.sin(a), color=BLUE, alpha=0.35, lw=0
-        )
-        ax.plot_surface(
-            radius_branch * np.cos(b),
-            radius_branch * np.sin(b),
-            height,
-            color=ORANGE,
-            alpha=0.45,
-            lw=0,
-        )
-        ax.plot(*_closed(seam.points).T, color=RED, lw=2.5, label="seam")
-        ax.legend(loc="upper left")
-        ax.set_aspect("equal")
+        figure, ax = axes_3d(6.8, 4.6, elev=28, azim=-55)
+        for surface, color in (
+            ((x, radius_main * np.cos(a), radius_main * np.sin(a)), BLUE),
+            ((radius_branch * np.cos(b), radius_branch * np.sin(b), height), ORANGE),
+        ):
+            ax.plot_surface(*surface, color=color, alpha=0.4, lw=0, rasterized=True)
+        ax.plot(*_closed(seam.points).T, color=RED, lw=2.5)
+        same_scale(ax, zoom=1.1)
+        top = np.array([0.0, 0.0, radius_main + branch_length])
+        named = {"main pipe": np.array([0.35 * length, 0.0, radius_main]), "branch": top,
+                 "seam": seam.points[int(seam.points[:, 1].argmin())]}  # fmt: skip
+        texts = [name_point(ax, at, name, (0, 9)) for name, at in named.items()]
+        texts[-1].set_color(ink(RED))
+        push_apart(figure, texts)
     return figure
 
 
 def seam_figure(curves: Mapping[str, np.ndarray]) -> Any:
-    """Closed space curves (N, 3) in metres, one for each name."""
+    """Closed space curves (N, 3) in metres, one for each name; a dot where each begins.
+
+    What is flatter than a quarter of its width is drawn higher than it is, and says so.
+    """
+    points = np.vstack(list(curves.values()))
+    spans = np.ptp(points, axis=0)
+    flat = spans[2] / spans[:2].max()
+    stretch = 1.0 if flat > _FLAT else float(max(2, round(0.5 / flat)))
     with house_style():
-        figure, ax = axes_3d(6.2, 5.0, elev=24, azim=-55)
-        for color, (name, points) in zip(PALETTE[::3], curves.items(), strict=False):
-            ax.plot(*_closed(points).T, color=color, label=name)
-            ax.scatter(*points[:1].T, color=color, s=30)
-        ax.legend(loc="upper left")
-        ax.set_aspect("equal")
+        figure, ax = axes_3d(6.6, 4.2, elev=24, azim=-55)
+        for color, (name, curve) in zip(PALETTE[::3], curves.items(), strict=False):
+            ax.plot(*_closed(curve).T, color=color, label=name, lw=2)
+            ax.scatter(*curve[:1].T, color=color, s=30, depthshade=False)
+        if stretch > 1:
+            ax.set_title(f"z drawn {stretch:.0f} times larger")
+        same_scale(ax, stretch=stretch)
+        texts = [
+            _name_outside(ax, curve, points.mean(axis=0), name, color)
+            for color, (name, curve) in zip(PALETTE[::3], curves.items(), strict=False)
+        ]
+        push_apart(figure, texts)
     return figure
+
+
+def _name_outside(ax: Any, curve: np.ndarray, middle: np.ndarray, name: str, color: str) -> Any:
+    """Name a curve above its highest point on the paper, away from the middle of all curves."""
+    x, y = proj3d.proj_transform(*curve.T, ax.get_proj())[:2]
+    across, up = proj3d.proj_transform(*middle, ax.get_proj())[:2]
+    k = int((np.asarray(y) - up - 0.7 * np.abs(np.asarray(x) - across)).argmax())
+    return name_point(ax, curve[k], name, (0, 14), color=color)
 
 
 def _closed(points: np.ndarray) -> np.ndarray:

@@ -10,37 +10,45 @@ import numpy as np
 
 from ..welding import ROBOTS, Cell, Measures
 from .ellipsoids import ROBOT_COLORS
-from .style import BLACK, PURPLE, house_style
+from .labels import name_ends
+from .style import BLACK, PALETTE, PURPLE, WIDTH, house_style
 
 
 def measures_figure(curves: Mapping[str, tuple[np.ndarray, Measures]]) -> Any:
     """Measures of each robot, w (3, N), of the carriers and of the system, one panel a name."""
     with house_style():
         figure, axes = plt.subplots(
-            1, len(curves), figsize=(5.4 * len(curves), 4.2), sharey=True, squeeze=False
+            1, len(curves), figsize=(WIDTH, 4.0), sharey=True, squeeze=False
         )
         for ax, (title, (w, measures)) in zip(axes[0], curves.items(), strict=True):
             for name, color, values in zip(ROBOTS, ROBOT_COLORS, w, strict=True):
                 ax.plot(values, color=color, label=f"{name} [m³]")
-            ax.plot(measures.tight, color=PURPLE, ls="--", label="carriers together [m⁶]")
+            ax.plot(measures.tight, color=PURPLE, ls="--", label="both carriers [m⁶]")
             ax.plot(measures.system, color=BLACK, lw=2.5, label="system, (16)")
-            ax.set(title=title, xlabel="seam point", ylabel="manipulability", ylim=(0, None))
+            ax.set(title=title, xlabel="seam point")
             ax.margins(x=0)
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        axes[0, 0].set(ylabel="manipulability", ylim=(0, None))  # after all panels: they share it
+        name_ends(axes[0, -1])
     return figure
 
 
 def joints_figure(cell: Cell, q: np.ndarray) -> Any:
-    """Joint angles q (3, N, 6) of each robot in degrees, with the share of the range they use."""
+    """Joint angles q (3, N, 6) of each robot in degrees; the legend gives their limits."""
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(12, 4.4), sharey=True)
+        figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 4.6), sharey=True)
         for k, (ax, name) in enumerate(zip(axes, ROBOTS, strict=True)):
             lower, upper = np.degrees(cell.limits(k))
             for j in range(6):
                 angle = np.degrees(q[k, :, j])
                 label = f"q{j + 1} in [{lower[j]:.0f}, {upper[j]:.0f}]"
-                ax.plot(angle, label=label)
-            ax.set(title=name, xlabel="seam point", ylabel="joint angle [deg]")
+                ax.plot(angle, label=label, color=PALETTE[j], lw=1.8)
+                for limit in (lower[j], upper[j]):  # seen where the range of the panel holds it
+                    ax.plot([0.0, 0.06], [limit, limit], color=PALETTE[j], lw=3, zorder=1,
+                            scaley=False, transform=ax.get_yaxis_transform())  # fmt: skip
+            ax.set(title=name, xlabel="seam point")
             ax.margins(x=0)
-        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=6)
+        axes[0].set_ylabel("joint angle [deg]")
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3,
+                      title="joints, and their limits in degrees (bars at the left)",
+                      alignment="left")  # fmt: skip
     return figure

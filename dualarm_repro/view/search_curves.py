@@ -8,9 +8,9 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .style import BLACK, ORANGE, PALETTE, house_style
+from .style import BLACK, ORANGE, PALETTE, WIDTH, house_style
 
-_LEAST_SPAN = 0.5  # of an axis of joint angles [deg]
+_LEAST_SPAN = 0.1  # of a joint that is given a panel [deg]
 
 
 def coordinate_figure(
@@ -18,16 +18,20 @@ def coordinate_figure(
     marks: Mapping[str, np.ndarray] | None = None,
     xlabel: str = "search",
 ) -> Any:
-    """x, y and z of the flange over the samples; ``marks`` are points (3,) drawn as levels."""
+    """x, y and z of the flange over the samples; ``marks`` are points (3,) drawn as levels.
+
+    A dot marks the end of each curve.
+    """
     with house_style():
-        figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
+        figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 3.1), sharex=True)
         for k, ax in enumerate(axes):
             for color, (name, tcp) in zip(PALETTE, runs.items(), strict=False):
                 ax.plot(tcp[:, k], color=color, label=name, lw=1.6)
+                ax.plot(len(tcp) - 1, tcp[-1, k], "o", color=color, ms=4)
             for style, (name, point) in zip(("--", ":"), (marks or {}).items(), strict=False):
-                ax.axhline(point[k], color=BLACK, ls=style, lw=1, label=name)
+                ax.axhline(point[k], color=BLACK, ls=style, lw=1.3, label=name)
             ax.set(xlabel=xlabel, ylabel=f"{'xyz'[k]} of the flange [m]")
-        _legend_below(figure, axes[0])
+        _legend_above(figure, axes[0])
     return figure
 
 
@@ -36,40 +40,79 @@ def joint_figure(
     junctions: Sequence[float] = (),
     xlabel: str = "sample of the path",
 ) -> Any:
-    """All joint angles of one or several paths (N, nq) in degrees, junctions as vertical lines."""
-    count = next(iter(runs.values())).shape[1]
+    """Joint angles of one or several paths (N, nq) in degrees, junctions as vertical lines.
+
+    A joint that hardly moves has no panel: the last title names it with how far it moves.
+    """
+    spans = np.rad2deg(np.max([np.ptp(path, axis=0) for path in runs.values()], axis=0))
+    moving = np.flatnonzero(spans >= _LEAST_SPAN)
+    columns = max(1, min(3, (len(moving) + 1) // 2))
+    rows = max(1, -(-len(moving) // columns))
     with house_style():
-        figure, axes = plt.subplots(2, (count + 1) // 2, figsize=(11, 5.4), sharex=True)
-        for j, ax in enumerate(axes.flat[:count]):
+        figure, grid = plt.subplots(
+            rows, columns, figsize=(WIDTH, 2.2 * rows + 0.5), sharex=True, squeeze=False
+        )
+        for ax in grid.flat[len(moving) :]:
+            ax.set_visible(False)
+        for ax, j in zip(grid.flat, moving, strict=False):
             for k, (name, path) in enumerate(runs.items()):
                 ax.plot(np.rad2deg(path[:, j]), color=PALETTE[k], label=name, lw=1.6)
             for k, junction in enumerate(junctions):
-                ax.axvline(junction, color=PALETTE[k], ls=":", lw=1)
-            low, high = ax.get_ylim()
-            if high - low < _LEAST_SPAN:  # rounding is no motion
-                ax.set_ylim(-_LEAST_SPAN, _LEAST_SPAN)
-            ax.set(ylabel=f"joint {j + 1} [deg]", xlabel=xlabel)
-        _legend_below(figure, axes.flat[0])
+                ax.axvline(junction, color=PALETTE[k], ls=":", lw=1.3)
+            ax.set(ylabel=f"joint {j + 1} [deg]")
+        for ax in grid.flat[max(len(moving) - columns, 0) : len(moving)]:
+            ax.set_xlabel(xlabel)
+            ax.tick_params(labelbottom=True)
+        still = [f"{j + 1} ({_tiny(spans[j])})" for j in np.flatnonzero(spans < _LEAST_SPAN)]
+        _legend_above(figure, grid.flat[0], "junction" if len(junctions) else None)
+        if still:
+            figure.supxlabel(f"not drawn, since they hardly move: joint {' and '.join(still)}",
+                             fontsize=9, x=0.01, ha="left")  # fmt: skip
     return figure
 
 
 def splice_figure(
     path: np.ndarray, smooth: np.ndarray, junction: float, joints: Sequence[int], window: int = 12
 ) -> Any:
-    """Two or more joints around the junction of a path (N, nq), raw and smoothed, in degrees."""
-    low, high = max(int(junction) - window, 0), int(junction) + window + 2
+    """Two or more joints around the junction of a path (N, nq), raw and smoothed, in degrees.
+
+    Below each angle stands its bend, the second difference, in which the junction shows.
+    """
+    low, high = max(int(junction) - window, 1), int(junction) + window + 2
     samples = np.arange(len(path))[low:high]
+    both = (("joined", path, ORANGE, ".-"), ("smoothed", smooth, PALETTE[0], "-"))
     with house_style():
-        figure, axes = plt.subplots(1, len(joints), figsize=(4.2 * len(joints), 3.4))
-        for ax, j in zip(axes, joints, strict=True):
-            ax.plot(samples, np.rad2deg(path[low:high, j]), ".-", color=ORANGE, label="joined")
-            ax.plot(samples, np.rad2deg(smooth[low:high, j]), color=PALETTE[0], label="smoothed")
-            ax.axvline(junction, color=BLACK, ls=":", lw=1, label="junction")
-            ax.set(xlabel="sample of the path", ylabel=f"joint {j + 1} [deg]")
-        _legend_below(figure, axes[0])
+        figure, axes = plt.subplots(
+            2, len(joints), figsize=(WIDTH, 4.6), sharex=True, squeeze=False
+        )
+        for column, j in enumerate(joints):
+            top, below = axes[:, column]
+            for name, angles, color, style in both:
+                degrees = np.rad2deg(angles[:, j])
+                bend = degrees[2:] - 2 * degrees[1:-1] + degrees[:-2]
+                top.plot(samples, degrees[low:high][: len(samples)], style, color=color, label=name)
+                below.plot(samples[: len(bend) - low + 1], bend[low - 1 : high - 1][: len(samples)],
+                           style, color=color)  # fmt: skip
+            for ax in (top, below):
+                ax.axvline(junction, color=BLACK, ls=":", lw=1.3)
+            span = float(np.ptp(np.rad2deg(path[:, j])))
+            top.set(ylabel=f"joint {j + 1} [deg]", title=f"joint {j + 1} moves by {span:.2g} deg")
+            below.set(xlabel="sample of the path", ylabel="bend [deg per sample²]")
+            for ax in (top, below):
+                ax.ticklabel_format(axis="y", useOffset=False, scilimits=(-3, 4))
+        _legend_above(figure, axes[0, 0], "junction")
     return figure
 
 
-def _legend_below(figure: Any, ax: Any) -> None:
+def _tiny(span: float) -> str:
+    """A small angle; rounding is none."""
+    return f"{span:.2g} deg" if span > 1e-9 else "at rest"
+
+
+def _legend_above(figure: Any, ax: Any, dotted: str | None = None) -> None:
+    """One line of names above the panels, ``dotted`` for vertical lines."""
     handles, labels = ax.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    if dotted:
+        handles.append(plt.Line2D([], [], color="0.3", ls=":", lw=1.3))
+        labels.append(dotted)
+    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels))

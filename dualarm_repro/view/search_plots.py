@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import fill
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.ticker import LogLocator
 
-from .style import BLACK, BLUE, ORANGE, RED, house_style
+from .labels import name_ends
+from .style import BLACK, BLUE, ORANGE, RED, SMALL, WIDTH, house_style, ink
 
 
 def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
     """Histories (runs, generations) of several quantities: median, band of all, single runs."""
     with house_style():
-        figure, ax = plt.subplots(figsize=(7.2, 4.2))
+        figure, ax = plt.subplots(figsize=(WIDTH, 4.0))
         for color, (name, values) in zip((BLUE, ORANGE, RED), curves.items(), strict=False):
             generation = np.arange(values.shape[1])
             ax.fill_between(
@@ -25,7 +28,7 @@ def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
             ax.plot(generation, np.median(values, axis=0), color=color, lw=2.2, label=name)
         ax.set(xlabel="generation", ylabel=ylabel, ylim=(0, None))
         ax.margins(x=0)
-        ax.legend()
+        name_ends(ax)
     return figure
 
 
@@ -33,18 +36,25 @@ def best_individual_figure(best: np.ndarray, printed: np.ndarray) -> Any:
     """Coordinates of the best individual of every run (runs, 3), beside the printed ones."""
     position = np.arange(3)
     with house_style():
-        figure, ax = plt.subplots(figsize=(6.4, 4.0))
+        figure, ax = plt.subplots(figsize=(WIDTH, 4.0))
         ax.axhline(0, color=BLACK, lw=0.8)
-        ax.bar(position - 0.2, best[0], 0.36, color=BLUE, label="first run")
-        ax.bar(position + 0.2, printed, 0.36, color=ORANGE, label="printed")
+        for values, shift, color, name in (
+            (best[0], -0.2, BLUE, "first run"), (printed, 0.2, ORANGE, "printed")
+        ):  # fmt: skip
+            ax.bar(position + shift, values, 0.36, color=color, label=name, alpha=0.85)
+            for k, value in enumerate(values):
+                ax.annotate(f"{value:.3f}", (k + shift, value), (0, 8 if value >= 0 else -8),
+                            textcoords="offset points", ha="center", fontsize=SMALL + 1,
+                            va="bottom" if value >= 0 else "top")  # fmt: skip
         for k in range(3):
-            shift = np.linspace(-0.32, -0.08, len(best))
+            spread = np.linspace(-0.32, -0.08, len(best))
             ax.plot(
-                k + shift, best[:, k], "o", color=BLACK, ms=4, label="all runs" if not k else None
+                k + spread, best[:, k], "o", color=BLACK, ms=4, label="all runs" if not k else None
             )
         ax.set_xticks(position, ["x", "y", "z"])
         ax.set(xlabel="coordinate", ylabel="best individual [m]")
-        ax.legend()
+        ax.margins(y=0.12)
+        figure.legend(loc="outside upper left", ncols=3)
     return figure
 
 
@@ -53,7 +63,7 @@ def optimisers_figure(table: pd.DataFrame, truth: float, budget: int) -> Any:
     names = list(dict.fromkeys(table["optimiser"]))
     with house_style():
         figure, (ax, right) = plt.subplots(
-            1, 2, figsize=(9.6, 0.5 * len(names) + 1.8), sharey=True, width_ratios=(2, 1)
+            1, 2, figsize=(WIDTH, 0.45 * len(names) + 1.4), sharey=True, width_ratios=(2, 1)
         )
         for k, name in enumerate(names):
             rows = table[table["optimiser"] == name]
@@ -63,10 +73,12 @@ def optimisers_figure(table: pd.DataFrame, truth: float, budget: int) -> Any:
             ax.plot([gap.median()] * 2, [k - 0.32, k + 0.32], color=BLACK, lw=2)
             right.plot(rows["seconds"], height, "o", color=ORANGE, ms=5, alpha=0.7)
         ax.axvline(1e-3, color=RED, ls="--", lw=1)
-        ax.text(1e-3, -0.75, " 0.1 %", color=RED, va="bottom")
-        ax.set(xscale="log", xlabel=f"gap to the ground truth after {budget} evaluations")
-        ax.set_yticks(range(len(names)), names)
+        ax.text(1e-3, 1.01, "0.1 %", color=ink(RED), va="bottom", ha="center",
+                transform=ax.get_xaxis_transform())  # fmt: skip
+        ax.set(xscale="log", xlabel=f"gap to the ground truth, {budget} evaluations")
+        ax.xaxis.set_major_locator(LogLocator(numticks=6))
+        ax.set_yticks(range(len(names)), [fill(name, 20) for name in names])
         ax.invert_yaxis()
         ax.set_ylabel("optimiser")
-        right.set(xlabel="CPU time [s]", ylabel="optimiser", xlim=(0, None))
+        right.set(xlabel="CPU time [s]", xlim=(0, None))
     return figure

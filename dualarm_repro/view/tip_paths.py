@@ -6,11 +6,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Unpack
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from ..scene import PlacedArm, Sphere
 from .arm_drawings import skeleton
-from .style import BLACK, PALETTE, View, axes_3d, house_style
+from .labels import name_points
+from .style import (
+    BLACK,
+    ORANGE,
+    PALETTE,
+    WIDTH,
+    View,
+    axes_3d,
+    house_style,
+    same_scale,
+)
+
+#: Colours of paths; that of the spheres is left out.
+_COLORS = (PALETTE[0], PALETTE[3], PALETTE[2], PALETTE[4])
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,24 +40,61 @@ class TipPanel:
 def tip_path_figure(
     panels: Sequence[TipPanel], spheres: Sequence[Sphere], **view: Unpack[View]
 ) -> Any:
-    """Panels side by side, each with the spheres and the floor's height as lower end of z."""
+    """Panels side by side, each with the spheres and the floor's height as lower end of z.
+
+    A ring marks where each path begins and a square where it ends; postures of an arm become
+    darker in their order.
+    """
     with house_style():
-        figure, axes = axes_3d(5.6 * len(panels), 5.0, columns=len(panels), **view)
+        wide = WIDTH if len(panels) > 1 else 0.75 * WIDTH
+        figure, axes = axes_3d(wide, 4.6, columns=len(panels), **view)
+        handles: dict[str, Any] = {}
         for ax, panel in zip(np.atleast_1d(axes), panels, strict=True):
+            ax.computed_zorder = False
             for sphere in spheres:
                 draw_sphere(ax, sphere)
-            for placed, q in panel.postures:
-                ax.plot(*skeleton(placed.arm, q, placed.placement).T, color="0.6", lw=2, alpha=0.6)
-            for color, (name, points) in zip(PALETTE, panel.paths.items(), strict=False):
-                ax.plot(*points.T, ".-", color=color, ms=3, lw=1.4, label=name)
-            for marker, (name, point) in zip("x*PD", panel.marks.items(), strict=False):
-                points = np.atleast_2d(point)
-                ax.plot(*points.T, marker, color=BLACK, ms=8, ls="none", label=name)
+            _postures(ax, panel)
+            for color, (name, points) in zip(_COLORS, panel.paths.items(), strict=False):
+                (handles[name],) = ax.plot(*points.T, "-", color=color, lw=2, zorder=4)
+                ax.plot(*points[:1].T, "o", color=color, mfc="white", mew=1.6, ms=6, zorder=5)
+                ax.plot(*points[-1:].T, "s", color=color, ms=6, zorder=5)
+            for marker, point in zip("xPD*", panel.marks.values(), strict=False):
+                ax.plot(*np.atleast_2d(point).T, marker, color=BLACK, ms=8, ls="none", zorder=6)
             _keep_wide(ax)
             ax.set_title(panel.title)
-            ax.set_aspect("equal")
-            ax.legend(loc="upper left", fontsize="small")
+            same_scale(ax, zoom=1.05)
+        if handles:
+            handles["begins"] = _sign("o", mfc="white", mew=1.6)
+            handles["ends"] = _sign("s")
+        if spheres:
+            handles["obstacles"] = _sign("o", color=ORANGE, alpha=0.5, ms=10)
+        if len(handles) > 1:
+            figure.legend(handles.values(), handles, loc="outside upper left", ncols=len(handles))
+        for ax, panel in zip(np.atleast_1d(axes), panels, strict=True):
+            name_points(ax, _named(panel.marks), offset=(0, 11))
     return figure
+
+
+def _named(marks: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The first of several points of one name stands for all."""
+    return {name: np.atleast_2d(point)[0] for name, point in marks.items()}
+
+
+def _postures(ax: Any, panel: TipPanel) -> None:
+    """Stick figures: grey for one arm, else in the colours of the paths, darker in their order."""
+    names = list(dict.fromkeys(placed.name for placed, _ in panel.postures))
+    for name, color in zip(names, _COLORS if len(names) > 1 else ("0.25",), strict=False):
+        own = [(placed, q) for placed, q in panel.postures if placed.name == name]
+        for k, (placed, q) in enumerate(own):
+            shade = 0.25 + 0.6 * k / max(len(own) - 1, 1)
+            points = skeleton(placed.arm, q, placed.placement)
+            ax.plot(*points.T, color=color, lw=2.2, alpha=shade, zorder=3)
+            ax.plot(*points[:1].T, "s", color=color, ms=6, zorder=3)
+
+
+def _sign(marker: str, **how: Any) -> Any:
+    style: dict[str, Any] = {"color": "0.3", "ms": 6} | how
+    return plt.Line2D([], [], ls="none", marker=marker, **style)
 
 
 def _keep_wide(ax: Any, least: float = 0.4) -> None:
@@ -58,4 +109,4 @@ def draw_sphere(ax: Any, sphere: Sphere) -> None:
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 24), np.linspace(0, np.pi, 13))
     shell = np.array([np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)])
     x, y, z = sphere.center[:, None, None] + sphere.radius * shell
-    ax.plot_surface(x, y, z, color=PALETTE[1], alpha=0.3, linewidth=0)
+    ax.plot_surface(x, y, z, color=ORANGE, alpha=0.3, linewidth=0, rasterized=True)

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from ..scene.posing import links_of
 from ..welding import ROBOTS, WELDER, Cell, Separation
-from .ellipsoids import ROBOT_COLORS, ellipsoid_surface
-from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, axes_3d, house_style
+from .ellipsoids import ROBOT_COLORS, ellipsoid_panels
+from .labels import name_point, name_points, push_apart
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    RED,
+    WIDTH,
+    axes_3d,
+    house_style,
+    name_axes,
+    same_scale,
+)
 
 _AXES = (RED, GREEN, BLUE)
 
@@ -21,7 +35,6 @@ def cell_figure(
     *,
     index: int = 0,
     grams: np.ndarray | None = None,
-    scale: float = 0.25,
     capsules: bool = False,
 ) -> Any:
     """The three robots, the workpiece and its seam at one seam point.
@@ -30,48 +43,60 @@ def cell_figure(
     ----------
     q : ndarray (3, N, 6) [rad]
     grams : ndarray (3, 3, 3), optional
-        Matrices of ellipsoids drawn at the reference points, ``scale`` metres per unit.
+        Matrices of the velocity ellipsoids, each drawn in a panel of its own.
     capsules : bool
         Draw the links as thick as their capsules instead of as lines.
     """
     with house_style():
-        figure, ax = axes_3d(8.0, 6.4, elev=26, azim=-104)
-        for k, (name, color) in enumerate(zip(ROBOTS, ROBOT_COLORS, strict=True)):
-            points = _skeleton(cell, k, q[k, index])
-            ax.plot(*points.T, "o-", color=color, lw=9 if capsules else 4, ms=4, label=name)
-            triad(ax, cell.bases[k], 0.22)
-        _workpiece(ax, cell, centre, index)
+        figure = plt.figure(figsize=(WIDTH, 4.2 if grams is None else 6.8))
+        figure.set_layout_engine("constrained", hspace=0.12)
+        if grams is None:
+            grid = figure.add_gridspec(1, 2, width_ratios=(1.3, 1))
+        else:
+            grid = figure.add_gridspec(2, 6, height_ratios=(1.25, 1))
+        places = (grid[0, 0], grid[0, 1]) if grams is None else (grid[0, :3], grid[0, 3:])
+        whole, close = (figure.add_subplot(place, projection="3d") for place in places)
+        for ax in (whole, close):
+            name_axes(ax)
+            ax.view_init(elev=26, azim=-104)
+            ax.computed_zorder = False
+            _draw_robots(ax, cell, q, index, thick=capsules)
+            _workpiece(ax, cell, centre, index)
         if grams is not None:
-            for k, color in enumerate(ROBOT_COLORS):
-                at = centre + cell.references[k, index]
-                surface = [
-                    scale * part + at[i] for i, part in enumerate(ellipsoid_surface(grams[k]))
-                ]
-                ax.plot_surface(*surface, color=color, alpha=0.25, lw=0)
-        _same_scale(ax)
-        ax.legend(loc="upper left")
+            below = [figure.add_subplot(grid[1, 2 * k : 2 * k + 2], projection="3d")
+                     for k in range(len(ROBOTS))]  # fmt: skip
+            ellipsoid_panels(below, grams)
+        _room(whole)
+        _around(close, centre)
+        close.set_title("at the workpiece")
+        name_points(whole, {name: cell.bases[k][:3, 3] for k, name in enumerate(ROBOTS)},
+                    offset=(0, -14))  # fmt: skip
+        tip = centre + cell.references[WELDER, index]
+        name_points(close, {"torch": tip}, offset=(0, 16))
     return figure
 
 
 def vectors_figure(cell: Cell, q: np.ndarray, centre: np.ndarray) -> Any:
     """Frames of workpiece, flanges and bases, with the vectors of the closure equations."""
     with house_style():
-        figure, ax = axes_3d(8.0, 6.4, elev=26, azim=-104)
+        figure, ax = axes_3d(WIDTH, 5.4, elev=26, azim=-104)
+        ax.computed_zorder = False
         for k, color in enumerate(ROBOT_COLORS):
-            ax.plot(*_skeleton(cell, k, q[k, 0]).T, color=color, lw=3, alpha=0.35)
+            ax.plot(*_skeleton(cell, k, q[k, 0]).T, color=color, lw=4, alpha=0.3, zorder=1)
             triad(ax, cell.bases[k], 0.2)
-            ax.text(*cell.bases[k][:3, 3], f" B{k + 1}")
-        piece = cell.piece_pose(centre)[0]
-        triad(ax, piece, 0.15)
+        triad(ax, cell.piece_pose(centre)[0], 0.15)
         origin = np.zeros(3)
         triad(ax, np.eye(4), 0.25)
-        ax.text(*origin, " W")
-        _arrow(ax, origin, centre, "p2", BLACK)
+        named = [(cell.bases[k][:3, 3], f"B{k + 1}", BLACK) for k in range(len(ROBOTS))]
+        named += [(origin, "W", BLACK), (centre, "C", BLACK)]
+        named.append((_arrow(ax, origin, centre, BLACK), "p2", BLACK))
         for k, (flange_name, grip_name) in enumerate((("p1", "r1"), ("p3", "r2"))):
             flange = centre + cell.flanges[k, 0, :3, 3]
-            _arrow(ax, origin, flange, flange_name, ORANGE)
-            _arrow(ax, centre, flange, grip_name, PURPLE)
-        _same_scale(ax)
+            named.append((_arrow(ax, origin, flange, ORANGE), flange_name, "#8a5f00"))
+            named.append((_arrow(ax, centre, flange, PURPLE), grip_name, PURPLE))
+        _room(ax)
+        texts = [name_point(ax, at, name, (9, 0), color=c, weight="bold") for at, name, c in named]
+        push_apart(figure, texts, 1.0)
     return figure
 
 
@@ -90,11 +115,15 @@ def capsule_figure(cell: Cell, q: np.ndarray, robot: int) -> Any:
     start = sum(len(links_of(other).radius) for other in cell.arms[:robot])
     radii = links_of(arm).radius
     with house_style():
-        figure, ax = axes_3d(6.4, 6.2, elev=16, azim=-60)
+        figure, ax = axes_3d(6.4, 5.8, elev=16, azim=-60)
         for core, radius in zip(ends[start : start + len(radii)], radii, strict=True):
-            ax.plot_surface(*_capsule(core, radius), color=ROBOT_COLORS[robot], alpha=0.45, lw=0)
+            ax.plot_surface(*_capsule(core, radius), color=ROBOT_COLORS[robot], alpha=0.45, lw=0,
+                            rasterized=True)  # fmt: skip
         ax.plot(*_skeleton(cell, robot, q).T, "o-", color=BLACK, lw=1, ms=3)
-        ax.set_aspect("equal")
+        low, high = ax.get_ylim()
+        middle, half = 0.5 * (low + high), 0.5 * max(high - low, 0.7)
+        ax.set_ylim(middle - half, middle + half)
+        same_scale(ax)
     return figure
 
 
@@ -113,9 +142,10 @@ def _skeleton(cell: Cell, robot: int, q: np.ndarray) -> np.ndarray:
 def _workpiece(ax: Any, cell: Cell, centre: np.ndarray, index: int) -> None:
     R = cell.rotations[index]
     for core, radius in zip(cell.pipe_cores, cell.pipe_radii, strict=True):
-        ax.plot_surface(*_capsule(core @ R.T + centre, radius), color="0.5", alpha=0.3, lw=0)
+        surface = _capsule(core @ R.T + centre, radius)
+        ax.plot_surface(*surface, color="0.5", alpha=0.3, lw=0, rasterized=True, zorder=2)
     seam = np.vstack([cell.seam, cell.seam[:1]]) @ R.T + centre
-    ax.plot(*seam.T, color=ORANGE, lw=2)
+    ax.plot(*seam.T, color=ORANGE, lw=2, zorder=4)
 
 
 def _capsule(core: np.ndarray, radius: float) -> list[np.ndarray]:
@@ -140,13 +170,42 @@ def _capsule(core: np.ndarray, radius: float) -> list[np.ndarray]:
     return list(points)
 
 
-def _arrow(ax: Any, start: np.ndarray, end: np.ndarray, name: str, color: str) -> None:
-    ax.quiver(*start, *(end - start), color=color, lw=1.6, arrow_length_ratio=0.06)
-    ax.text(*(0.5 * (start + end)), f" {name}", color=color)
+def _draw_robots(ax: Any, cell: Cell, q: np.ndarray, index: int, *, thick: bool) -> None:
+    """Links in the colours of the robots; grippers and torch as dark ends."""
+    for k, color in enumerate(ROBOT_COLORS):
+        points = _skeleton(cell, k, q[k, index])
+        links = points[:-1] if k == WELDER else points
+        ax.plot(*links.T, "-", color=color, lw=8 if thick else 4, zorder=3, alpha=0.9)
+        ax.plot(*links.T, "o", color="white", mec=color, ms=4, zorder=4)
+        tool = points[-2:] if k == WELDER else np.array([points[-1], _grip(cell, k, q, index)])
+        ax.plot(*tool.T, "-", color=BLACK, lw=3, zorder=5)
+        triad(ax, cell.bases[k], 0.22)
 
 
-def _same_scale(ax: Any) -> None:
-    ax.set_xlim(-1.3, 1.3)
-    ax.set_ylim(-1.4, 1.2)
-    ax.set_zlim(0, 1.5)
-    ax.set_aspect("equal")
+def _grip(cell: Cell, robot: int, q: np.ndarray, index: int) -> np.ndarray:
+    """The place of the workpiece that a carrier holds: the end of a core nearest to its flange."""
+    flange = cell.flanges[robot, index, :3, 3]
+    ends = cell.pipe_cores.reshape(-1, 3) @ cell.rotations[index].T
+    nearest = ends[np.linalg.norm(ends - flange, axis=1).argmin()]
+    return _skeleton(cell, robot, q[robot, index])[-1] + (nearest - flange)
+
+
+def _arrow(ax: Any, start: np.ndarray, end: np.ndarray, color: str) -> np.ndarray:
+    """A vector; where to name it."""
+    ax.quiver(*start, *(end - start), color=color, lw=1.8, arrow_length_ratio=0.06, zorder=4)
+    return 0.5 * (start + end)
+
+
+def _room(ax: Any) -> None:
+    ax.set(xlim=(-1.3, 1.3), ylim=(-1.4, 0.4), zlim=(0, 1.5))
+    same_scale(ax, zoom=1.1)
+
+
+def _around(ax: Any, centre: np.ndarray, half: float = 0.6) -> None:
+    """Only what lies near the workpiece."""
+    x, y, z = centre
+    ax.set(xlim=(x - half, x + half), ylim=(y - half, y + half), zlim=(z - half, z + half))
+    for artist in (*ax.lines, *ax.collections):
+        if hasattr(artist, "_axlim_clip"):
+            artist._axlim_clip = True
+    same_scale(ax, zoom=1.1)

@@ -43,7 +43,10 @@ def robot(name):
 
 
 def caption(page):
-    return re.search("<figcaption>(.*?)</figcaption>", page.html, re.DOTALL)[1]
+    """The title of the figure, which is the first sentence, and the text below it."""
+    title = re.search('<p class="ledger-finding">(.*?)</p>', page.html, re.DOTALL)[1]
+    rest = re.search("<figcaption>(.*?)</figcaption>", page.html, re.DOTALL)
+    return f"{title}. {rest[1] if rest else ''}"
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from ...errors import UnsupportedArmError
 from ..card import figure_html
 from ..equations import Equations
 from ..page import Page
-from ..style import BLACK, BLUE, GREEN, house_style
+from ..style import BLACK, BLUE, GREEN, WIDTH, house_style
 
 _AXES = ((2, BLUE, 0.10), (0, GREEN, 0.065))  # column of the rotation, colour, drawn length [m]
 _SHIFTS = 1000
@@ -103,7 +103,7 @@ def frames_page(name: str, rng: np.random.Generator) -> Page:
     shift = np.linalg.norm(arm.positions(q) - misread.positions(q), axis=1)
     same = "identically zero" if residual == sp.zeros(4) else "NOT zero"
     with house_style():
-        figure, axes = plt.subplots(1, 2, figsize=(8.0, 5.2), sharex=True, sharey=True)
+        figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 5.0), sharex=True, sharey=True)
         for ax, table in zip(axes, (robot, modified), strict=True):
             _draw_frames(ax, table)
     alt = (

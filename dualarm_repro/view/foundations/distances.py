@@ -15,7 +15,7 @@ from ...scene.distance import signed_distance
 from ...scene.shapes import Box, Capsule, HalfSpace, Sphere
 from ..card import figure_html
 from ..page import Page
-from ..style import BLACK, ORANGE, RED, SKY, house_style
+from ..style import BLACK, ORANGE, RED, SKY, WIDTH, house_style
 
 _Draw = Callable[[np.random.Generator], Shape]
 _UP = np.array([0.0, 0.0, 1.0])
@@ -65,7 +65,7 @@ def field_page(rng: np.random.Generator) -> Page:
     cosine = (to_box[:, 1:, 1:] * to_capsule[:, 1:, 1:]).sum(axis=-1)[crease]
     jump = np.degrees(np.arccos(cosine.clip(-1, 1)))
     with house_style():
-        figure, ax = plt.subplots(figsize=(7.6, 4.6))
+        figure, ax = plt.subplots(figsize=(WIDTH, 4.6))
         levels = np.arange(-0.25, 0.85, 0.05)
         filled = ax.contourf(x, y, nearest[..., 0], levels, cmap="RdBu", vmin=-0.8, vmax=0.8)
         ax.contour(x, y, nearest[..., 0], [0.0], colors=BLACK, linewidths=2)
