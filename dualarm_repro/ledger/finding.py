@@ -6,9 +6,7 @@ import re
 from textwrap import wrap
 from typing import Any
 
-_SENTENCE = re.compile(
-    r"(?<!\bFig)(?<!\bFigs)(?<!\bEq)(?<!\bvs)(?<!\.[a-z])\.\s+(?=[A-Z0-9(\[])"
-)
+_SENTENCE = re.compile(r"(?<!\bFig)(?<!\bFigs)(?<!\bEq)(?<!\bvs)(?<!\.[a-z])\.\s+(?=[A-Z0-9(\[])")
 _LETTERS, _LINES = 92, 3  # of a title above a figure that is as wide as the page
 
 
