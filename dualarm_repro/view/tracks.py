@@ -147,7 +147,7 @@ def _side(
         ax.fill(*outline.T, facecolor="0.8", edgecolor="0.5", lw=0.6, zorder=1, alpha=0.6)
     for track in tracks:
         points = track.points[:, pair]
-        ax.plot(*points.T, track.style, color=track.color, lw=1.8, zorder=3)
+        ax.plot(*points.T, track.style, color=track.color, lw=1.8, zorder=3, label=track.name)
         ax.plot(*points[::_EVERY].T, "o", color=track.color, ms=3.5, zorder=4)
     _marks(ax, {n: p[pair] for n, p in marks.items()}, {n: p[pair] for n, p in contacts.items()},
            size=35)  # fmt: skip
