@@ -23,7 +23,8 @@ PACKAGE = {
 
 
 def _run(folder, cache, argument="2.0"):
-    environment = {**os.environ, "DUALARM_CACHE": str(cache)}
+    # Python's own cache of bytecode does go by time stamps.
+    environment = {**os.environ, "DUALARM_CACHE": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
     environment.pop("NUMBA_CACHE_DIR", None)
     code = SCRIPT.format(folder=str(folder), argument=argument)
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True,

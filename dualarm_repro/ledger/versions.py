@@ -17,6 +17,7 @@ DISTRIBUTIONS = {
     "example_robot_data": ("example-robot-data-loaders",),
     "mpl_toolkits": ("matplotlib",),
     "ompl": ("ompl",),
+    "PIL": ("pillow",),
     "pinocchio": ("pin",),
     "umsgpack": ("u-msgpack-python",),
     "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp", "quadprog"),

@@ -10,7 +10,7 @@ def test_a_figure_is_shown_with_its_finding_and_alternative_text():
     figure, ax = plt.subplots()
     ax.plot([0, 1])
     html = cell.shown(figure, "It rises.", "A line that rises.").html
-    assert "<figcaption>It rises.</figcaption>" in html
+    assert '<p class="ledger-finding">It rises</p>' in html
     assert 'alt="A line that rises."' in html
     assert not plt.fignum_exists(figure.number)
 
