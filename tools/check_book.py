@@ -19,7 +19,8 @@ from prerun import ROOT, notebooks, toc_pages
 
 Pages = Mapping[str, BeautifulSoup]
 MEGABYTE = 1_000_000
-LARGEST_BOOK, LARGEST_PAGE = 60 * MEGABYTE, 3 * MEGABYTE
+#: A fifth of the book are the pages of the items, another fifth the highlighted sources.
+LARGEST_BOOK, LARGEST_PAGE = 85 * MEGABYTE, 3 * MEGABYTE
 LARGEST_SCENE = 300_000
 _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")

@@ -1,7 +1,7 @@
 """Sphinx extension: every executed page can be downloaded as a notebook, and launched elsewhere.
 
-The notebook is the source of the page with the outputs of its execution. 3-D scenes are left out,
-since they take their viewer from the book; running the cell draws them. ``launch_addresses`` maps
+The notebook is the source of the page with the outputs of its execution. Cards of items are left
+out, since they are in the book already; running the cell shows them. ``launch_addresses`` maps
 the name of a service to an address in which ``{page}`` stands for the page; there are none by
 default, since the book then needs no other host.
 """
@@ -9,7 +9,6 @@ default, since the book then needs no other host.
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +24,8 @@ from dualarm_repro.view.running_notebook import IN_BOOK
 
 KERNEL = {"name": "python3", "display_name": "Python 3", "language": "python"}
 FOLDER = "_sources"
-_SCENE = re.compile(r'<iframe class="ledger-scene".*?</iframe>', re.DOTALL)
-_LEFT_OUT = "<p><i>The 3-D scene appears when this cell is run.</i></p>"
+_CARD = 'class="ledger-item"'
+_LEFT_OUT = "<p><i>The cards of the items appear when this cell is run.</i></p>"
 _HEADER = """*This notebook is the page `{page}` of the book of {name} {version}. It runs wherever
 the package is installed, from a clone or a wheel; in a clone, `make lab` opens all pages in
 JupyterLab. A cell that shows items computes them when it is first run, which takes up to some
@@ -62,8 +61,8 @@ def notebook(source: str, page: str, outputs: NotebookNode | None) -> NotebookNo
 
 def _light(output: NotebookNode) -> NotebookNode:
     found = nbformat.from_dict(output)
-    if html := found.get("data", {}).get("text/html"):
-        found.data["text/html"] = _SCENE.sub(_LEFT_OUT, html)
+    if _CARD in found.get("data", {}).get("text/html", ""):
+        found.data["text/html"] = _LEFT_OUT
     return found
 
 
