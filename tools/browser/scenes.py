@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from base64 import b64decode
-from binascii import Error
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -16,10 +14,9 @@ from playwright.async_api import BrowserContext, Locator
 from .report import Report
 from .visit import visit
 
-SCENES = "iframe.ledger-scene"
-#: A small screen and small frames, since scenes are drawn without a graphics card here.
+SCENES = "figure.ledger-scene"
+#: A small screen, since scenes are drawn without a graphics card here.
 STAGE = {"width": 400, "height": 400}
-_SMALL = "iframe.ledger-scene { width: 320px !important; height: 240px !important; }"
 #: Share of the pixels of a scene that have to be coloured; ground and grid are grey and pale.
 LEAST_DRAWN = 0.005
 #: A pixel is coloured if its channels are so far apart, of 255.
@@ -27,7 +24,6 @@ COLOURED = 60
 #: Milliseconds between two looks, and looks until a scene counts as still or blank.
 APART, LOOKS = 400, 40
 _SPARED = """(() => {
-  if (window === top) return;
   const get = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (kind, options) {
     const kept = { ...options, preserveDrawingBuffer: true, antialias: SMOOTH };
@@ -44,7 +40,6 @@ _PIXELS = """(canvas) => {
   on.drawImage(canvas, 0, 0);
   return copy.toDataURL("image/png");
 }"""
-_COMMAND = re.compile(r'"([A-Za-z0-9+/]{8,}={0,2})"')
 
 
 async def spare(context: BrowserContext, *, smooth: bool = False) -> None:
@@ -70,28 +65,29 @@ async def look_at_scenes(context: BrowserContext, html: Path, name: str, report:
     """
     moving = 0
     async with visit(context, html / f"{name}.html") as made:
-        await made.page.add_style_tag(content=_SMALL)
-        frames = made.page.locator(SCENES)
-        for number in range(await frames.count()):
-            frame = frames.first
-            await frame.evaluate("(one) => one.scrollIntoView({block: 'center'})")
-            lines = []
-            if not await _until(frame, drawn):
+        scenes = made.page.locator(SCENES)
+        for number in range(await scenes.count()):
+            scene, lines = scenes.first, []
+            await scene.evaluate("(one) => one.scrollIntoView({block: 'center'})")
+            await scene.locator("button.scene-start").click()
+            if not await _until(scene, drawn):
                 lines.append(f"scene {number + 1} draws nothing")
-            elif await _has_motion(frame):
-                first = pixels(await picture(frame))
-                moves = await _until(frame, lambda now, first=first: differs(first, now))
+            elif await scene.get_attribute("data-moves") == "yes":
+                first = pixels(await picture(scene))
+                play = scene.get_by_role("button", name="Play", exact=True)
+                if await play.count():  # else it plays since it was started
+                    await play.click()
+                moves = await _until(scene, lambda now, first=first: differs(first, now))
                 moving += moves
                 lines += [] if moves else [f"scene {number + 1} has a motion and stands still"]
             report.add("scenes", name, lines)
-            await frame.evaluate("(one) => one.remove()")  # it would go on drawing
+            await scene.evaluate("(one) => one.remove()")  # it would go on drawing
     return moving
 
 
-async def picture(frame: Locator) -> str:
+async def picture(scene: Locator) -> str:
     """What a scene has drawn as a ``data:`` address; empty while it has no canvas."""
-    inner = await _document(frame)
-    canvas = inner.locator("canvas")
+    canvas = scene.locator("canvas")
     return await canvas.first.evaluate(_PIXELS) if await canvas.count() else ""
 
 
@@ -114,29 +110,6 @@ def differs(first: np.ndarray, second: np.ndarray) -> bool:
     if first.shape != second.shape:
         return False
     return float((np.abs(first - second).max(axis=2) > COLOURED).mean()) > 1e-4
-
-
-def has_motion(content: str) -> bool:
-    """Whether the commands of a scene contain an animation."""
-    for found in _COMMAND.finditer(content):
-        try:
-            if b"set_animation" in b64decode(found[1])[:200]:
-                return True
-        except Error:
-            continue
-    return False
-
-
-async def _document(frame: Locator):  # type: ignore[no-untyped-def]
-    """The document that draws: that of the frame, or of a frame within it."""
-    inner = frame.content_frame
-    below = inner.locator("iframe")
-    return below.first.content_frame if await below.count() else inner
-
-
-async def _has_motion(frame: Locator) -> bool:
-    inner = await _document(frame)
-    return has_motion(await inner.locator("html").evaluate("(one) => one.outerHTML"))
 
 
 async def _until(frame: Locator, holds: Callable[[np.ndarray], bool]) -> bool:
