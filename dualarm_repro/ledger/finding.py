@@ -23,6 +23,13 @@ def entitled(figure: Any, caption: str) -> Any:
     lines = wrap(text, letters)
     if len(lines) > _LINES:
         lines = [*lines[: _LINES - 1], lines[_LINES - 1][: letters - 2] + " …"]
+    figure.draw_without_rendering()  # legends and equal scales find their places
+    figure.set_layout_engine("none")
+    for legend in figure.legends:  # else it moves to the edge of the paper, which grows
+        corner = figure.transFigure.inverted().transform(legend.get_window_extent().p0)
+        legend.set_loc("lower left")
+        legend.set_bbox_to_anchor(corner, transform=figure.transFigure)
+        legend.borderaxespad = 0.0
     place = figure.get_tightbbox()
     figure.text(
         place.x0 / figure.get_figwidth(), (place.y1 + 0.12) / figure.get_figheight(),

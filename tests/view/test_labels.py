@@ -98,9 +98,21 @@ def test_finding_is_the_first_sentence(caption, title, rest):
 
 
 def test_a_file_carries_the_finding(ax):
+    ax.plot([0, 1], [0, 1], label="a curve")
+    ax.set_aspect("equal")
+    ax.figure.legend(loc="outside upper left")
     entitled(ax.figure, "The curve rises in all cases. The rest follows.")
     assert [text.get_text() for text in ax.figure.texts] == ["The curve rises in all cases"]
     assert faults(ax.figure) == []
+    places = []
+
+    def look(event):
+        (legend,), (title,) = ax.figure.legends, ax.figure.texts
+        places.append(title.get_window_extent().y0 - legend.get_window_extent().y1)
+
+    ax.figure.canvas.mpl_connect("draw_event", look)
+    ax.figure.savefig(BytesIO(), bbox_inches="tight")
+    assert places[-1] > 0
 
 
 def test_drawing_in_a_page_has_title_text_and_dark_rules(ax):
