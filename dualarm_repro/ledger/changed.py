@@ -54,6 +54,24 @@ def read_changes(registry: Registry, item_id: str, settings: Sequence[str]) -> d
     return found
 
 
+def setting(name: str, value: Any) -> str:
+    """``assumption=value`` as :func:`read_changes` reads it back."""
+    return f"{name}={typed(value)}"
+
+
+def typed(value: Any) -> str:
+    """A value as somebody types it: a word as it is, anything else as JSON with all its digits."""
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def flipping(made: Mapping[str, Any]) -> str | None:
+    """The setting that alone flips the outcome of a record; None without one of a single value."""
+    flip = (made["robustness"] or {}).get("flip")
+    if flip is None or isinstance(flip["value"], list | dict):
+        return None
+    return setting(flip["assumption"], flip["value"])
+
+
 def read_value(entry: Assumption, name: str, text: str) -> Any:
     """A value of the kind that an assumption declares, from a text.
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..ledger.changed import flipping
 from .numbers import number, words
 
 _EVIDENCE = {
@@ -48,15 +49,9 @@ def context_rows(made: Mapping[str, Any]) -> list[Row]:
 
 
 def rerun(made: Mapping[str, Any]) -> str | None:
-    """The command that computes the item with its most influential assumption changed."""
-    if not made["assumptions"] or not made["robustness"]:
-        return None
-    flip = made["robustness"]["flip"]
-    if flip and not isinstance(flip["value"], list):
-        value = flip["value"]
-        value = f"{value:.4g}" if isinstance(value, float) else value
-        return f"dualarm run {made['id']} --set {flip['assumption']}={value}"
-    return None
+    """The command that computes the item with the change that alone flips its outcome."""
+    change = flipping(made)
+    return f"dualarm run {made['id']} --set {change}" if change else None
 
 
 def _row(entry: Mapping[str, Any], found: Mapping[str, Any]) -> Row:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from shlex import join
 from typing import Any
 
+from ..ledger.changed import flipping, setting, typed
 from .badge import percent
 from .printed_beside import Row, check_rows, printed_rows
 from .wording import search_lines, share_of, short
@@ -55,19 +56,12 @@ def place_lines(made: dict[str, Any]) -> Iterator[str]:
     """Where the code and the page are, and which commands compute and cite the item again."""
     if code := made["code"]:
         yield f"code: {code['file']}:{code['line']} {code['function']}; page {made['page']}"
-    changes = (f"{one['assumption']}={_argument(one['value'])}" for one in made.get("changed", ()))
+    changes = (setting(one["assumption"], one["value"]) for one in made.get("changed", ()))
     again = join(["dualarm", "run", made["id"], *(f"--set={change}" for change in changes)])
     yield f"again: {again}; cite: dualarm cite {made['id']}"
     if made["assumptions"] and "changed" not in made:
-        yield f"with another value: dualarm run {made['id']} --set {_example(made)}"
-
-
-def _example(made: dict[str, Any]) -> str:
-    """A change to try: the one that flips the verdict, else the first assumption."""
-    flip = (made["robustness"] or {}).get("flip")
-    if flip and not isinstance(flip["value"], list | dict):
-        return f"{flip['assumption']}={short(flip['value'])}"
-    return f"{made['assumptions'][0]['id']}=VALUE"
+        change = flipping(made) or f"{made['assumptions'][0]['id']}=VALUE"
+        yield f"with another value: dualarm run {made['id']} --set {change}"
 
 
 def changed_lines(made: dict[str, Any]) -> Iterator[str]:
@@ -94,7 +88,7 @@ def plausible_text(entry: dict[str, Any]) -> str:
     if entry.get("range"):
         text = f"plausible {short(entry['range'][0])} to {short(entry['range'][1])}"
     elif entry.get("choices"):
-        text = f"plausible: {', '.join(short(choice) for choice in entry['choices'])}"
+        text = f"plausible: {', '.join(map(typed, entry['choices']))}"
     else:
         text = "no other value declared"
     return text if entry.get("plausible", True) else f"{text}; this is outside"
@@ -175,10 +169,6 @@ def _grounds(made: dict[str, Any]) -> Iterator[str]:
         yield f"  erratum {entry['id']}: {entry['problem']} [{proof_text(entry)}]"
     for datum in made["missing"]:
         yield f"  not printed: {datum}"
-
-
-def _argument(value: Any) -> str:
-    return value if isinstance(value, str) else _json(value)
 
 
 def _json(value: Any) -> str:

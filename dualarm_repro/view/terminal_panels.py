@@ -108,7 +108,9 @@ def _assumption(entry: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _value(entry: dict[str, Any]) -> str:
-    return short(entry["value"]) + (f" {entry['unit']}" if entry.get("unit") else "")
+    value = entry["value"]  # a word stays as `--set` reads it
+    text = value if isinstance(value, str) else short(value)
+    return f"{text} {entry['unit']}" if entry.get("unit") else text
 
 
 def _firmness(made: dict[str, Any]) -> Iterator[str]:

@@ -3,8 +3,18 @@
 import pytest
 
 from dualarm_repro.errors import InputError
-from dualarm_repro.ledger.changed import evaluate_changed, read_changes, read_value
+from dualarm_repro.ledger.changed import (
+    evaluate_changed,
+    flipping,
+    read_changes,
+    read_value,
+    setting,
+    typed,
+)
+from dualarm_repro.ledger.record import record
 from dualarm_repro.ledger.schema import Assumption
+from dualarm_repro.view.assumption_rows import rerun
+from dualarm_repro.view.terminal import place_lines, plausible_text
 
 from .toy import toy_registry
 
@@ -100,3 +110,35 @@ def test_what_the_computation_cannot_take_is_an_input_error(toy):
         evaluate_changed(toy, "toy.claim_area", {"width": None})
     with pytest.raises(InputError, match="an item that is computed"):
         evaluate_changed(toy, "toy.fig01", {})
+
+
+def test_what_is_typed_is_read_back(registry):
+    """Every value of every assumption, in the words in which a terminal offers it."""
+    for paper in registry.papers.values():
+        for name, declared in paper.assumptions.items():
+            offered = plausible_text(declared.model_dump())
+            for value in (declared.value, *(declared.choices or ())):
+                assert read_value(declared, name, typed(value)) == value, name
+                assert declared.range or not declared.choices or typed(value) in offered, name
+
+
+def test_the_command_that_is_offered_is_the_change_that_flips(registry):
+    offered = 0
+    for item_id in registry.items:
+        made = record(registry, item_id)
+        if change := flipping(made):
+            flip = made["robustness"]["flip"]
+            assert read_changes(registry, item_id, [change]) == {flip["assumption"]: flip["value"]}
+            assert rerun(made) == f"dualarm run {item_id} --set {change}"
+            assert any(line.endswith(rerun(made)) for line in place_lines(made))
+            offered += 1
+    assert offered > 20
+
+
+def test_no_command_is_offered_for_a_change_of_many_numbers():
+    flip = {"assumption": "height", "value": [1.0, 2.0]}
+    assert flipping({"robustness": {"flip": flip}}) is None
+    assert flipping({"robustness": None}) is None
+    assert setting("points", [1, 2.5]) == "points=[1, 2.5]"
+    assert setting("shape", "front_deep") == "shape=front_deep"
+    assert setting("angle", 0.7853981633974483) == "angle=0.7853981633974483"
