@@ -16,7 +16,6 @@ import yaml
 from browser.binding import Sheet, bind, contents_html, first_pages, numbers_html
 from browser.chromium import NOT_RUN, WHY_NOT, browser, executable
 from browser.paper import print_page
-from browser.scenes import spare
 from bs4 import BeautifulSoup
 from prerun import ROOT
 from pypdf import PdfReader
@@ -61,7 +60,6 @@ async def make(html: Path, book: Path, title: str, target: Path, folder: Path) -
     ]
     async with browser() as running:
         context = await running.new_context(viewport={"width": 900, "height": 1200})
-        await spare(context, smooth=True)
         for sheet in sheets:
             await print_page(context, html / f"{sheet.name}.html", sheet.pdf)
 

@@ -65,7 +65,6 @@ async def check(html: Path, chapters: Sequence[str], *, alone: bool = False) -> 
         context = await running.new_context(viewport=WIDE)
         plain = await running.new_context(viewport=WIDE, java_script_enabled=False)
         stage = await running.new_context(viewport=STAGE)
-        await spare(context)
         await spare(stage)
 
         async def page(name: str) -> None:

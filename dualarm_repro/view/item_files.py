@@ -24,8 +24,6 @@ KINDS = {
     "scene.html": "the 3-D scene by itself",
 }
 _IMAGE = re.compile(r'src="data:image/(svg\+xml|png);base64,([^"]+)"')
-_FRAME = re.compile(r"<iframe\b.*?</iframe>", re.DOTALL)
-_SRCDOC = re.compile(r'\ssrcdoc="[^"]*"')
 _SCENE = """<!DOCTYPE html><html lang="en" data-content_root="../"><head><meta charset="utf-8">
 <title>{title}</title><meta name="viewport" content="width=device-width">
 <link rel="stylesheet" href="../_static/moving/scene.css"></head>
@@ -87,16 +85,6 @@ def beside_page(figure: str, files: Sequence[tuple[str, str]]) -> str:
     kind = found[1].partition("+")[0]
     where = next(address for one, address in files if one == kind)
     return figure.replace(found[0], f'src="{where}"')
-
-
-def scene_beside_page(scene: str, files: Sequence[tuple[str, str]]) -> str:
-    """A 3-D scene whose frame shows the file beside the page, which has the caption as well."""
-    found = _FRAME.search(scene)
-    if found is None:
-        return scene
-    where = next(address for one, address in files if one == "scene.html")
-    frame = _SRCDOC.sub(f' src="{where}"', found[0])
-    return f'<figure class="ledger-figure">{frame}</figure>'
 
 
 def _contents(made: Mapping[str, Any], drawn: Mapping[str, Any]) -> dict[str, str | bytes]:

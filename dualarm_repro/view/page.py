@@ -13,9 +13,9 @@ from ..ledger.files import to_json
 from ..ledger.record import located, make, record, roots
 from ..ledger.registry import Registry
 from .card import card_html, figure_html, head_html
-from .item_files import beside_page, links, scene_beside_page
+from .item_files import beside_page, links
 from .legibility import faults
-from .running_notebook import shown
+from .running_notebook import with_style
 
 _KIND = "pages"
 #: A table of more bytes is not copied into the book; `dualarm run` writes it.
@@ -29,7 +29,7 @@ class Page:
         self.html = html
 
     def _repr_html_(self) -> str:
-        return shown(self.html)
+        return with_style(self.html)
 
 
 def present(registry: Registry, item_id: str, *, scene: bool = True) -> Page:
@@ -80,7 +80,7 @@ def card(
     root
         Way from the page up to the top of the book.
     own
-        Whether it stands on the item's own page: there figure and scene are files beside it.
+        Whether it stands on the item's own page: there the figure is a file beside it.
     """
     item_id, drawn = made["id"], pictures(registry, made["id"])
     files = links(made, drawn, root)
@@ -90,8 +90,7 @@ def card(
     elif made["caption"]:
         parts.append(f'<p class="ledger-caption">{escape(made["caption"])}</p>')
     if drawn["scene"] and scene:
-        stage = scene_beside_page(drawn["scene"], files) if own else drawn["scene"]
-        parts.append(f'<div class="ledger-stage">{stage}</div>')
+        parts.append(f'<div class="ledger-stage">{drawn["scene"]}</div>')
     parts.append(card_html(made, root, files, citations(registry, made)))
     place = 'id="card"' if own else f'id="{item_id}"'
     return f'<article class="ledger-item" {place}>{"".join(parts)}</article>'

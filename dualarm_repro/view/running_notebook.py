@@ -26,7 +26,7 @@ _COLOURS = """:root {
 """
 
 
-def shown(html: str) -> str:
+def with_style(html: str) -> str:
     """HTML as an output of a cell: as it is in the book, with its style elsewhere."""
     if IN_BOOK in os.environ:
         return html

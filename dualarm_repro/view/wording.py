@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
+from ..ledger.finding import finding_of
 from ..ledger.meaning import MEANING
 from ..ledger.verdict import Verdict
 from .badge import interval, percent
@@ -16,7 +16,6 @@ from .rule_sentences import compared_with_print, finding
 
 #: How many findings stand on the line of what is obtained.
 _MOST = 2
-_END = re.compile(r"(?<!Fig)(?<!Figs)(?<!eq)\.\s+(?=[A-Z0-9(])")
 _DECIDED = {
     Verdict.REPRODUCED: "print is met",
     Verdict.UNDER_ASSUMPTION: "possible",
@@ -54,7 +53,7 @@ def obtained_line(made: Mapping[str, Any]) -> str:
     if told := line(made, "obtained"):
         return told
     if made["kind"] == "figure" and made["printed"] is None and made["caption"]:
-        return _first_sentence(made["caption"])
+        return finding_of(made["caption"])[0]
     checks = [c for c in made["checks"] if c["role"] != "regenerates"] or made["checks"]
     order = sorted(checks, key=_rank)  # stable: the first of equals stays in front
     return "; ".join(finding(check) for check in order[:_MOST])
@@ -120,11 +119,6 @@ def search_lines(made: Mapping[str, Any]) -> list[str]:
     if made["seek"]:
         lines.append(f"Still to be sought: {made['seek']}")
     return lines
-
-
-def _first_sentence(text: str) -> str:
-    """A caption up to its first full stop, which is not that of an abbreviation."""
-    return _END.split(text, maxsplit=1)[0].rstrip(".")
 
 
 def _rank(check: Mapping[str, Any]) -> int:

@@ -12,14 +12,13 @@ from urllib.parse import unquote, urlsplit
 _TAG = re.compile(r"<(a|link|img|script|iframe|source)\s[^>]*>", re.IGNORECASE)
 _TARGET = re.compile(r'\s(?:href|src)="([^"]*)"', re.IGNORECASE)
 _PLACE = re.compile(r'\s(?:id|name)="([^"]+)"', re.IGNORECASE)
-_SCENE = re.compile(r'\ssrcdoc="[^"]*"')
 #: Places that a script or the browser itself makes.
 _MADE = ("", "top")
 
 
 @cache
 def _text(path: Path) -> str:
-    return _SCENE.sub("", path.read_text(encoding="utf-8"))
+    return path.read_text(encoding="utf-8")
 
 
 @cache

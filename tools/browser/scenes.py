@@ -26,7 +26,7 @@ APART, LOOKS = 400, 40
 _SPARED = """(() => {
   const get = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (kind, options) {
-    const kept = { ...options, preserveDrawingBuffer: true, antialias: SMOOTH };
+    const kept = { ...options, preserveDrawingBuffer: true, antialias: false };
     return get.call(this, kind, kind.startsWith("webgl") ? kept : options);
   };
   window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 333);
@@ -42,17 +42,10 @@ _PIXELS = """(canvas) => {
 }"""
 
 
-async def spare(context: BrowserContext, *, smooth: bool = False) -> None:
-    """Let scenes be read after they were drawn, and draw three pictures a second.
-
-    Without a graphics card a scene would otherwise keep the machine busy.
-
-    Parameters
-    ----------
-    smooth
-        Whether edges are smoothed, which takes longer.
-    """
-    await context.add_init_script(_SPARED.replace("SMOOTH", "true" if smooth else "false"))
+async def spare(context: BrowserContext) -> None:
+    """Let scenes be read after they were drawn, and draw three pictures a second, rough edges and
+    all: without a graphics card a scene would otherwise keep the machine busy."""
+    await context.add_init_script(_SPARED)
 
 
 async def look_at_scenes(context: BrowserContext, html: Path, name: str, report: Report) -> int:
