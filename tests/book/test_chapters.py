@@ -2,26 +2,16 @@
 
 import ast
 import re
-import warnings
-from contextlib import redirect_stdout
 from dataclasses import replace
-from functools import cache
-from io import StringIO
-from pathlib import Path
-from unittest.mock import patch
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from chapters import calls_in, cells_of, chapters_of, obtained_for, run
 
-from dualarm_repro import papers
-from dualarm_repro.ledger.reference import read_reference
 from dualarm_repro.papers.qiu.reading import Goal, Improved, Traditional, VariableGain
 from dualarm_repro.planning import StopReason, plan_apf_compiled
 from dualarm_repro.view import cell as view_cell
 
-BOOK = Path(__file__).parents[2] / "book"
-CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
 BARE = re.compile(r"\s*show\([^()]*\)\s*")
 #: Document, a method that it names, and the function whose call in a cell runs it.
 METHODS = [
@@ -59,28 +49,12 @@ METHODS = [
     ("qiu", "contact of whole links", "contact_check"),
     ("qiu", "both methods on many goals", "campaign"),
 ]
-DOCUMENTS = list(dict.fromkeys(document for document, _, _ in METHODS))
-CHAPTERS = [
-    f"{document}/{path.stem}"
-    for document in DOCUMENTS
-    for path in sorted((BOOK / document).glob("*.md"))
-    if path.stem != "index"
-]
+#: Chapters that this file runs; those of the programs and the welds have a file of their own.
+CHAPTERS = [*chapters_of("xue"), *chapters_of("qiu")]
+EVERY = [*CHAPTERS, *chapters_of("patent"), *chapters_of("pan")]
 #: What draws a figure: a cell that calls it has to show it.
 DRAWING = re.compile(r"subplots|\w+_figure|\w+_page|figure_html|shown")
 _NEAR = {"rel": 1e-4, "abs": 1e-9}
-
-
-def cells_of(chapter):
-    """Code of the cells of a chapter, without their options."""
-    found = CELL.findall((BOOK / f"{chapter}.md").read_text(encoding="utf-8"))
-    return ["\n".join(line for line in c.splitlines() if not line.startswith(":")) for c in found]
-
-
-def calls_in(code):
-    """Names of the functions that a cell calls."""
-    called = (node.func for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Call))
-    return {getattr(f, "id", None) or getattr(f, "attr", "") for f in called}
 
 
 def has_no_output(code):
@@ -91,44 +65,7 @@ def has_no_output(code):
     return any(DRAWING.fullmatch(name) for name in calls_in(code))
 
 
-@cache
-def run(chapter):
-    """The names that the cells of a chapter leave behind, what they compared with the ledger, and
-    the cells that end in a call without showing anything."""
-    names, compared, silent = {}, [], []
-
-    def reference(item_id):
-        return read_reference(item_id.partition(".")[0])[item_id]["obtained"]
-
-    def beside_ledger(item_id, computed):
-        compared.extend((item_id, key, value) for key, value in computed.items())
-        return original(item_id, computed)
-
-    original = view_cell.beside_ledger
-    with (
-        patch.object(papers, "show", lambda *ids: ids),
-        patch.object(view_cell, "obtained", reference),
-        patch.object(view_cell, "beside_ledger", beside_ledger),
-        warnings.catch_warnings(record=True) as caught,
-    ):
-        warnings.simplefilter("default")
-        for number, code in enumerate(cells_of(chapter)):
-            body, printed, value = ast.parse(code).body, StringIO(), None
-            last = body.pop() if isinstance(body[-1], ast.Expr) else None
-            with redirect_stdout(printed):
-                exec(compile(ast.Module(body, []), f"<cell {number}>", "exec"), names)
-                if last:
-                    expression = compile(ast.Expression(last.value), f"<cell {number}>", "eval")
-                    value = eval(expression, names)
-            if last and value is None and not printed.getvalue():
-                silent.append(code)
-    silent += [str(one.message) for one in caught if one.filename.startswith("<cell")]
-    silent += [f"figure {number} without a caption" for number in plt.get_fignums()]
-    plt.close("all")
-    return names, compared, silent
-
-
-@pytest.mark.parametrize("chapter", CHAPTERS)
+@pytest.mark.parametrize("chapter", EVERY)
 def test_no_chapter_is_a_pile_of_cards(chapter):
     cells = cells_of(chapter)
     bare = [code for code in cells if BARE.fullmatch(code)]
@@ -137,14 +74,21 @@ def test_no_chapter_is_a_pile_of_cards(chapter):
 
 @pytest.mark.parametrize(("document", "method", "call"), METHODS)
 def test_every_method_is_run_in_a_cell(document, method, call):
-    chapters = (c for c in CHAPTERS if c.startswith(f"{document}/"))
-    assert any(call in calls_in(code) for c in chapters for code in cells_of(c)), method
+    codes = (code for chapter in chapters_of(document) for code in cells_of(chapter))
+    assert any(call in calls_in(code) for code in codes), method
+
+
+@pytest.mark.parametrize("chapter", EVERY)
+def test_no_cell_hides_its_figure(chapter):
+    assert [code for code in cells_of(chapter) if has_no_output(code)] == []
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS)
 def test_every_cell_shows_what_it_promises(chapter):
-    assert [code for code in cells_of(chapter) if has_no_output(code)] == []
-    assert run(chapter)[2] == []
+    ran = run(chapter)
+    assert ran.silent == []
+    assert [text for file, text in ran.warned if file.startswith("<cell")] == []
+    assert ran.left == [], "a figure without a caption"
 
 
 @pytest.mark.parametrize(
@@ -156,11 +100,10 @@ def test_a_cell_that_hides_its_figure_is_found(code):
 
 @pytest.mark.parametrize("chapter", CHAPTERS)
 def test_numbers_of_a_chapter_are_those_of_the_ledger(chapter):
-    compared = run(chapter)[1]
+    compared = run(chapter).compared
     assert compared
     for item_id, key, value in compared:
-        found = read_reference(item_id.partition(".")[0])[item_id]["obtained"]
-        ledger = view_cell.value_at(found, key)
+        ledger = view_cell.value_at(obtained_for(item_id), key)
         if isinstance(ledger, str) or (isinstance(ledger, list) and isinstance(ledger[0], str)):
             assert value == ledger, f"{item_id}, {key}"
         else:
@@ -169,7 +112,7 @@ def test_numbers_of_a_chapter_are_those_of_the_ledger(chapter):
             )
 
 
-@pytest.mark.parametrize("chapter", CHAPTERS)
+@pytest.mark.parametrize("chapter", EVERY)
 def test_no_chapter_imports_a_private_name(chapter):
     for code in cells_of(chapter):
         imports = [n for n in ast.walk(ast.parse(code)) if isinstance(n, ast.ImportFrom)]
@@ -178,11 +121,11 @@ def test_no_chapter_imports_a_private_name(chapter):
 
 @pytest.mark.parametrize("chapter", ["xue/kinematics", "qiu/geometry"])
 def test_symbols_and_pinocchio_agree(chapter):
-    assert 0.0 < run(chapter)[0]["largest"] < 1e-12
+    assert 0.0 < run(chapter).names["largest"] < 1e-12
 
 
 def test_a_chapter_shows_a_trap_and_the_escape_from_it():
-    without, with_point = run("xue/potentials")[0]["escapes"].values()
+    without, with_point = run("xue/potentials").names["escapes"].values()
     assert without.reason is StopReason.TRAPPED
     assert without.certificate.smallest_curvature > 1.0
     assert with_point.rescued
@@ -198,7 +141,7 @@ def _planned(names, **changed):
 
 
 def test_promised_changes_of_the_repulsion_happen():
-    names = run("xue/potentials")[0]
+    names = run("xue/potentials").names
     as_printed, weak, short = (
         _planned(names, **changed) for changed in ({}, {"gain": 0.1}, {"influence": 0.1})
     )
@@ -209,7 +152,7 @@ def test_promised_changes_of_the_repulsion_happen():
 
 
 def test_a_virtual_point_that_lets_go_too_early_does_not_help():
-    names = run("xue/potentials")[0]
+    names = run("xue/potentials").names
     early = replace(names["yawed"].planner, virtual_release=0.7)
     arm = names["slave"]
     settings = names["reading"].improved(early, names["centre"], arm.goal)
@@ -219,7 +162,7 @@ def test_a_virtual_point_that_lets_go_too_early_does_not_help():
 
 
 def test_a_smaller_perturbation_traps_all_ten_runs():
-    names = run("xue/table2")[0]
+    names = run("xue/table2").names
     counts = []
     for width in (0.01, 0.3):
         begin = names["outcomes"].starts(names["case"], width, 10, np.random.default_rng(0))
@@ -230,21 +173,21 @@ def test_a_smaller_perturbation_traps_all_ten_runs():
 
 
 def test_a_window_elsewhere_leaves_fig_9_nothing_to_show():
-    names = run("xue/scene")[0]
+    names = run("xue/scene").names
     case, search = names["case"], names["search"]
     there = case._replace(layout=replace(case.layout, window_centre_y=0.8))
     assert search.margins(case)["enters_bar"] > 0.0 > search.margins(there)["enters_bar"]
 
 
 def test_the_start_lies_inside_the_cloud_of_an_arm_without_limits():
-    names = run("xue/workspace")[0]
+    names = run("xue/workspace").names
     free = names["document"].arm_in_use("full_turns", 1.024)
     cloud = names["sample_workspace"](free, 100_000, np.random.default_rng(1))
     assert names["points"][:, 2].min() > names["start"][2] > cloud[:, 2].min()
 
 
 def test_thicker_links_overlap():
-    smallest = run("xue/truth")[0]["smallest"]
+    smallest = run("xue/truth").names["smallest"]
     assert smallest["arms"] - 2 * 0.12 > 0.0 > smallest["arms"] - 2 * 0.14
 
 
@@ -257,19 +200,19 @@ def test_promised_changes_of_the_searches_happen():
     dive = before.tcp[:, 2].min()
     assert dive < 0.1 < 0.3 < Improved.nominal(gain_ratio=1e-3).plan().tcp[:, 2].min()
     longer = Goal.nominal(master_goal="longer_tool")
-    names = run("qiu/geometry")[0]
+    names = run("qiu/geometry").names
     reached = names["end_effector"](longer.arm(), longer.posture())
     assert reached == pytest.approx(names["wanted"])
 
 
 def test_wide_circles_hold_the_whole_arm():
-    names = run("qiu/master_slave")[0]
+    names = run("qiu/master_slave").names
     wide = names["circles"]._replace(radii=(0.2,) * 6)
     assert names["protrusions"](names["master"], names["q"][np.newaxis], wide).max() == 0.0
 
 
 def test_without_the_flange_hardly_any_path_is_free():
-    names = run("qiu/success")[0]
+    names = run("qiu/success").names
     reading = Improved.nominal(control_points="elbow_wrist", gain_ratio=1e-4)
     goals, scene = names["goals"], names["truth_scene"]([reading.arm()])
     found = names["campaign"](reading.plan_to, goals.q, scene)
