@@ -14,28 +14,45 @@ from typing import Any
 
 import external_loads
 import pandas as pd
-from bs4 import BeautifulSoup
+from lxml import html as markup
 from prerun import ROOT, notebooks, toc_pages
 
-Pages = Mapping[str, BeautifulSoup]
+Pages = Mapping[str, markup.HtmlElement]
 MEGABYTE = 1_000_000
 #: A fifth of the book are the pages of the items, another fifth the highlighted sources.
 LARGEST_BOOK, LARGEST_PAGE = 85 * MEGABYTE, 3 * MEGABYTE
 LARGEST_SCENE = 300_000
 _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
+#: Links that the library makes; Sphinx looks after those of the text.
+_OUR_LINKS = ".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"
 #: Where verdicts are told in words.
 _VERDICTS = ".ledger-legend, .ledger-line, .ledger-findings"
 
 
-def read_pages(html: Path) -> dict[str, BeautifulSoup]:
+def read_pages(html: Path) -> dict[str, markup.HtmlElement]:
     """Every HTML page of a built book by its name without suffix."""
     return {
-        str(path.relative_to(html).with_suffix("")): BeautifulSoup(
-            path.read_text(encoding="utf-8"), "html.parser"
+        str(path.relative_to(html).with_suffix("")): markup.document_fromstring(
+            path.read_text(encoding="utf-8")
         )
         for path in sorted(html.rglob("*.html"))
     }
+
+
+def _ids(page: markup.HtmlElement) -> list[str]:
+    return [str(found) for found in page.xpath("//@id")]
+
+
+def _block(pages: Pages, page: str, anchor: str) -> markup.HtmlElement | None:
+    """The element of a page with an id."""
+    return pages[page].get_element_by_id(anchor, None) if page in pages else None
+
+
+def _words(element: markup.HtmlElement | None) -> str:
+    """What a reader reads in an element, with single spaces."""
+    texts = [] if element is None else element.xpath(".//text()")
+    return " ".join(" ".join(texts).split())
 
 
 def missing_pages(pages: Pages, expected: Iterable[str]) -> list[str]:
@@ -46,9 +63,9 @@ def missing_pages(pages: Pages, expected: Iterable[str]) -> list[str]:
 def misplaced_items(pages: Pages, home: Mapping[str, str]) -> list[str]:
     """Items that do not stand exactly once, on the page their checker declares."""
     found: dict[str, list[str]] = {}
-    for name, soup in pages.items():
-        for tag in soup.find_all(id=True):
-            found.setdefault(tag["id"], []).append(name)
+    for name, content in pages.items():
+        for anchor in _ids(content):
+            found.setdefault(anchor, []).append(name)
     return [
         f"{item_id}: declared for {page}, found on {', '.join(found.get(item_id, ['no page']))}"
         for item_id, page in home.items()
@@ -66,13 +83,13 @@ def wrong_cards(
     texts
         Texts of the record that the card must show.
     """
-    block = pages[page].find(id=made["id"]) if page in pages else None
+    block = _block(pages, page, made["id"])
     if block is None:
         return [f"{page}: no card of {made['id']}"]
     lines = []
-    if block.select_one(f".verdict-{made['verdict']}") is None:
+    if not block.cssselect(f".verdict-{made['verdict']}"):
         lines.append(f"{page}: the card of {made['id']} does not show {made['verdict']}")
-    shown = " ".join(block.get_text(" ").split())
+    shown = _words(block)
     for text in texts:
         if " ".join(text.split()) not in shown:
             lines.append(f"{page}: the card of {made['id']} does not show {text!r}")
@@ -89,8 +106,7 @@ def unprinted(pages: Pages, page: str, anchor: str, item_id: str, printed: Any) 
     """
     from dualarm_repro.ledger.printed import leaves
 
-    block = pages[page].find(id=anchor) if page in pages else None
-    shown = " ".join(block.get_text(" ").split()) if block else ""
+    shown = _words(_block(pages, page, anchor))
     return [
         f"{page}: the card of {item_id} does not show the printed {leaf!r}"
         for _, leaf in leaves(printed or {})
@@ -100,28 +116,28 @@ def unprinted(pages: Pages, page: str, anchor: str, item_id: str, printed: Any) 
 
 def wrong_counts(pages: Pages, page: str, counts: pd.DataFrame) -> list[str]:
     """A table of verdict counts that differs from the registry."""
-    table = pages[page].find(id="verdict-counts") if page in pages else None
+    table = _block(pages, page, "verdict-counts")
     if table is None:
         return [f"{page}: no table of verdict counts"]
-    rows = [[cell.get_text() for cell in row.find_all("td")] for row in table.find_all("tr")[1:]]
+    rows = [[cell.text_content() for cell in row.iter("td")] for row in table.iter("tr")][1:]
     expected = [[str(value) for value in column] for _, column in counts.items()]
     return [] if rows == expected else [f"{page}: shows the counts {rows}, not {expected}"]
 
 
 def broken_links(pages: Pages, html: Path) -> list[str]:
     """Links in the outputs of cells, which Sphinx does not check, to no page and no file."""
-    ids = {name: {tag["id"] for tag in soup.find_all(id=True)} for name, soup in pages.items()}
+    ids = {name: set(_ids(content)) for name, content in pages.items()}
     lines = []
-    for name, soup in pages.items():
-        for link in soup.select(".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"):
-            address, _, anchor = link["href"].partition("#")
+    for name, content in pages.items():
+        for link in content.cssselect(_OUR_LINKS):
+            address, _, anchor = link.get("href").partition("#")
             path = normpath(join(dirname(name), address)) if address else f"{name}.html"
             target = path.removesuffix(".html")
             if target not in pages and html.joinpath(path).is_file():
                 continue
             chosen = "=" in anchor  # what a filter of the ledger is set to
             if target not in pages or (anchor and not chosen and anchor not in ids[target]):
-                lines.append(f"{name}: the link {link['href']} leads nowhere")
+                lines.append(f"{name}: the link {link.get('href')} leads nowhere")
     return lines
 
 
@@ -129,8 +145,8 @@ def images_without_alt(pages: Pages) -> list[str]:
     """Images that say nothing to a reader who cannot see them."""
     return [
         f"{name}: an image without alternative text ({image.get('src', '')[:60]})"
-        for name, soup in pages.items()
-        for image in soup.find_all("img")
+        for name, content in pages.items()
+        for image in content.iter("img")
         if not image.get("alt", "").strip()
     ]
 
@@ -138,10 +154,10 @@ def images_without_alt(pages: Pages) -> list[str]:
 def faulty_scenes(pages: Pages) -> list[str]:
     """3-D scenes without a picture for paper and readers without scripts, or too large."""
     lines = []
-    for name, soup in pages.items():
-        for scene in soup.select("figure.ledger-scene"):
-            size, still = len(str(scene)), scene.select_one("img.scene-still")
-            if still is None or not still.get("src", "").startswith("data:image/"):
+    for name, content in pages.items():
+        for scene in content.cssselect("figure.ledger-scene"):
+            size, stills = len(markup.tostring(scene)), scene.cssselect("img.scene-still")
+            if not stills or not stills[0].get("src", "").startswith("data:image/"):
                 lines.append(f"{name}: a scene without a still picture")
             if size > LARGEST_SCENE:
                 lines.append(f"{name}: a scene of {size} bytes, allowed are {LARGEST_SCENE}")
@@ -150,8 +166,8 @@ def faulty_scenes(pages: Pages) -> list[str]:
 
 def not_executed(pages: Pages, page: str, expected: Iterable[str]) -> list[str]:
     """Notebooks that the table of executions on ``page`` does not report as run to the end."""
-    rows = pages[page].select("table tr") if page in pages else []
-    cells = [[cell.get_text().strip() for cell in row.find_all("td")] for row in rows]
+    rows = pages[page].cssselect("table tr") if page in pages else []
+    cells = [[cell.text_content().strip() for cell in row.iter("td")] for row in rows]
     done = {row[0] for row in cells if row and row[-1] == _DONE}
     return [f"{name}: a notebook that was not executed" for name in expected if name not in done]
 
@@ -160,20 +176,23 @@ def failed_outputs(pages: Pages) -> list[str]:
     """Outputs that show a failure instead of a result, and messages of the builder."""
     lines = [
         f"{name}: an output shows {text!r}"
-        for name, soup in pages.items()
-        for output in soup.select(".cell_output")
+        for name, content in pages.items()
+        for output in content.cssselect(".cell_output")
         for text in _FAILURES
         if text in _said(output)
     ]
-    messages = {name: soup.select(".system-message, .problematic") for name, soup in pages.items()}
-    return lines + [f"{name}: {m.get_text()!r}" for name, found in messages.items() for m in found]
+    return lines + [
+        f"{name}: {message.text_content()!r}"
+        for name, content in pages.items()
+        for message in content.cssselect(".system-message, .problematic")
+    ]
 
 
 def _said(output: Any) -> str:
     """Text of an output but for verdicts in words, one of which says "not found"."""
-    text = output.get_text()
-    for verdicts in output.select(_VERDICTS):
-        text = text.replace(verdicts.get_text(), "")
+    text = output.text_content()
+    for verdicts in output.cssselect(_VERDICTS):
+        text = text.replace(verdicts.text_content(), "")
     return text
 
 
@@ -181,8 +200,8 @@ def network_use(pages: Pages, html: Path) -> list[str]:
     """Everything that reaches for another host."""
     lines = [
         f"{name}: loads or links {found}"
-        for name, soup in pages.items()
-        for found in external_loads.in_page(soup)
+        for name, content in pages.items()
+        for found in external_loads.in_page(content)
     ]
     return lines + list(external_loads.in_assets(html))
 

@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from bs4 import BeautifulSoup
+from lxml import etree
+from lxml.html import HtmlElement, document_fromstring
 
 _ATTRIBUTES = ("src", "href", "xlink:href", "srcset", "data", "poster", "action", "formaction")
 _HOST = re.compile(r"^\s*(?:https?:|wss?:|ftp:)?//", re.IGNORECASE)
@@ -27,17 +28,18 @@ def in_code(text: str) -> list[str]:
     return [match[0] for match in _CODE.finditer(text)]
 
 
-def in_page(soup: BeautifulSoup) -> Iterator[str]:
+def in_page(page: HtmlElement) -> Iterator[str]:
     """Attributes, scripts, styles and embedded documents of a page that name another host."""
-    for tag in soup.find_all(True):
-        for name in _ATTRIBUTES:
-            if name in tag.attrs and _HOST.match(tag[name]):
-                yield f"<{tag.name} {name}={tag[name]!r}>"
-        if tag.name in ("script", "style"):
-            yield from in_code(tag.get_text())
-        yield from in_code(tag.get("style", ""))
-        if "srcdoc" in tag.attrs:
-            yield from in_page(BeautifulSoup(tag["srcdoc"], "html.parser"))
+    for tag in page.iter(etree.Element):
+        for name, value in tag.items():
+            if name in _ATTRIBUTES and _HOST.match(value):
+                yield f"<{tag.tag} {name}={value!r}>"
+            elif name == "style":
+                yield from in_code(value)
+            elif name == "srcdoc":
+                yield from in_page(document_fromstring(value))
+        if tag.tag in ("script", "style"):
+            yield from in_code(tag.text or "")
 
 
 def in_assets(html: Path) -> Iterator[str]:
