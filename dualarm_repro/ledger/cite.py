@@ -129,11 +129,13 @@ def csl(document: Document) -> dict[str, Any]:
 
 def _entry(kind: str, key: str, authors: Any, fields: dict[str, str | None]) -> str:
     from pybtex.database import BibliographyData, Entry, Person
+    from pybtex.database.output.bibtex import Writer
 
     names = [_tex(name) if "," in name else f"{{{_tex(name)}}}" for name in authors]
     persons = {"author": [Person(name) for name in names]} if names else {}
     written = {name: _tex(value) for name, value in fields.items() if value}
-    return str(BibliographyData({key: Entry(kind, written, persons)}).to_string("bibtex"))
+    data = BibliographyData({key: Entry(kind, written, persons)})
+    return str(Writer().to_string(data))  # `data.to_string` looks for a writer among all packages
 
 
 def _tex(text: str) -> str:
