@@ -28,6 +28,9 @@ class Page:
     def __init__(self, html: str) -> None:
         self.html = html
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__} of {len(self.html)} characters of HTML"
+
     def _repr_html_(self) -> str:
         return with_style(self.html)
 
