@@ -26,7 +26,7 @@ shell: $(VENV)/.installed  ## open a shell in which the command `dualarm` is on 
 
 book: $(VENV)/.installed  ## execute every notebook and build _build/html/index.html
 	$(BIN)/python tools/prerun.py
-	$(BIN)/jupyter-book build book -W -n --keep-going --all -q
+	$(BIN)/jupyter-book build book -W -n --keep-going -q
 	$(BIN)/dualarm export --out _build/html/_static/ledger
 	$(BIN)/python tools/check_book.py
 

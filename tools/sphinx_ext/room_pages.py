@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib import import_module
+from pathlib import Path
 from pkgutil import walk_packages
 from typing import Any
 
@@ -12,6 +13,7 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+_LIBRARY = Path(__file__).resolve().parents[2] / "dualarm_repro"
 _FIELD = "Alias for field number"
 _UP = re.compile(r"(:\w+:`~?)\.\.+")
 
@@ -28,6 +30,8 @@ class Room(SphinxDirective):
         for module in walk_packages(package.__path__, prefix):
             lines += [f".. rubric:: {module.name.removeprefix(prefix)}", ""]
             lines += [f".. automodule:: {module.name}", "   :members:", ""]
+        for file in sorted(_LIBRARY.rglob("*.py")):  # a text may come from a class of another room
+            self.env.note_dependency(str(file))
         block = nodes.Element()
         self.state.nested_parse(StringList(lines, self.arguments[0]), 0, block)
         return block.children
