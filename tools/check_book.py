@@ -152,10 +152,10 @@ def failed_outputs(pages: Pages) -> list[str]:
 
 
 def _said(output: Any) -> str:
-    """Text of an output but for the legend of the verdicts, one of which says "not found"."""
+    """Text of an output but for the words of verdicts, one of which says "not found"."""
     text = output.get_text()
-    for legend in output.select(".ledger-legend"):
-        text = text.replace(legend.get_text(), "")
+    for words in output.select(".ledger-legend, .ledger-line"):
+        text = text.replace(words.get_text(), "")
     return text
 
 
