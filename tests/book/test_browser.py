@@ -17,7 +17,7 @@ PAGE = """<!DOCTYPE html><html lang="en" data-theme="light"><head>
 <body><main><article><h1>A page</h1><p id="there">Words that <a href="good.html#there">say</a>
 something.</p>{body}</article></main></body></html>"""
 #: A scene that draws what ``paint`` says once it is started; ``k`` counts the pictures.
-SCENE = """<figure class="ledger-scene" data-moves="{moves}"><button class="scene-start">3-D</button>
+SCENE = """<figure class="ledger-scene" data-moves="{moves}"><button class="scene-start">Go</button>
 <script>const start = document.querySelector(".scene-start");
 start.addEventListener("click", () => {{
 const canvas = Object.assign(document.createElement("canvas"), {{width: 100, height: 80}});
