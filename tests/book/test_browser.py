@@ -32,6 +32,9 @@ BODIES = {
     "maths": '<span class="math">x^2</span>',
     "wide": '<p style="width: 1500px">A line</p>',
     "folded": '<details><summary>More</summary><p style="width: 500px">A line</p></details>',
+    "cut": '<p style="overflow: hidden; text-overflow: ellipsis; white-space: nowrap">'
+    + "A long title. " * 40
+    + "</p>",
     "nameless": "<button></button>",
     "pale": '<p class="pale">Pale words.</p>',
     "large": '<img alt="large" src="large.svg">',
@@ -107,6 +110,7 @@ def test_a_healthy_page_has_no_problem(found):
         ("maths", "maths", "not typeset: x^2"),
         ("wide", "width", "1500px"),
         ("folded", "width", "on 390"),
+        ("cut", "width", "cut off: A long title."),
         ("nameless", "access", "button-name (critical"),
         ("pale", "access", "dark: color-contrast (serious"),
         ("large", "size", "3.0 MB"),

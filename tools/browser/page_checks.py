@@ -43,6 +43,11 @@ _TOO_WIDE = """() => {
   return [`${document.scrollingElement.scrollWidth} px on ${wide}: ` +
     found.slice(-2).map((one) => one.outerHTML.slice(0, 120)).join(" | ")];
 }"""
+#: Words that end in dots because their box is too narrow.
+_CUT = """() => [...document.querySelectorAll("article *")]
+  .filter((one) => getComputedStyle(one).textOverflow === "ellipsis" &&
+    one.scrollWidth > one.clientWidth + 1)
+  .map((one) => "cut off: " + one.textContent.trim().slice(0, 80))"""
 #: Pages of which the frame that all share is looked at as well.
 WHOLE = ("intro", "search")
 _AXE = """([rules, within]) => axe.run(within || document, Object.assign(
@@ -74,6 +79,7 @@ async def look_at(
         await page.evaluate(_UNFOLD, name.startswith("items/"))
         for size, themes in ((WIDE, ("light", "dark")), (PHONE, ("dark", "light"))):
             await page.set_viewport_size(size)
+            wide += [f"{size['width']} px, {text}" for text in await page.evaluate(_CUT)]
             for theme in themes:
                 await set_theme(page, theme)
                 wide += [f"{theme}, {text}" for text in await page.evaluate(_TOO_WIDE)]

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from playwright.async_api import BrowserContext, TimeoutError
 
+from . import newcomer
 from .report import Report
 from .visit import visit
 
@@ -140,6 +141,7 @@ USES: dict[str, Use] = {
     "a citation": copying,
     "search": search,
     "dark mode": dark_mode,
+    "a newcomer": newcomer.walk,
 }
 
 
