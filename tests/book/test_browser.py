@@ -35,6 +35,7 @@ BODIES = {
     "cut": '<p style="overflow: hidden; text-overflow: ellipsis; white-space: nowrap">'
     + "A long title. " * 40
     + "</p>",
+    "hidden": f'<div class="cell_input" style="overflow: auto"><pre>{"x = 1; " * 300}</pre></div>',
     "nameless": "<button></button>",
     "pale": '<p class="pale">Pale words.</p>',
     "large": '<img alt="large" src="large.svg">',
@@ -111,6 +112,7 @@ def test_a_healthy_page_has_no_problem(found):
         ("wide", "width", "1500px"),
         ("folded", "width", "on 390"),
         ("cut", "width", "cut off: A long title."),
+        ("hidden", "width", "1440 px, cut off: x = 1;"),
         ("nameless", "access", "button-name (critical"),
         ("pale", "access", "dark: color-contrast (serious"),
         ("large", "size", "3.0 MB"),

@@ -43,10 +43,11 @@ _TOO_WIDE = """() => {
   return [`${document.scrollingElement.scrollWidth} px on ${wide}: ` +
     found.slice(-2).map((one) => one.outerHTML.slice(0, 120)).join(" | ")];
 }"""
-#: Words that end in dots because their box is too narrow.
+#: Words that end in dots because their box is too narrow, and code that a wide screen cuts off.
 _CUT = """() => [...document.querySelectorAll("article *")]
-  .filter((one) => getComputedStyle(one).textOverflow === "ellipsis" &&
-    one.scrollWidth > one.clientWidth + 1)
+  .filter((one) => one.scrollWidth > one.clientWidth + 1 &&
+    (getComputedStyle(one).textOverflow === "ellipsis" ||
+      (innerWidth > 1000 && one.matches(".cell_input pre"))))
   .map((one) => "cut off: " + one.textContent.trim().slice(0, 80))"""
 #: Pages of which the frame that all share is looked at as well.
 WHOLE = ("intro", "search")
