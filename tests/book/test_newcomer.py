@@ -10,7 +10,7 @@ pytestmark = pytest.mark.skipif(
 )
 
 FRONT = """<div class="ledger-picture"><a href="items/xue.tab02.html">Table 2</a></div>"""
-CARD = """<div id="xue.tab02"><dl class="ledger-line">
+CARD = """<div class="ledger-item"><dl class="ledger-line">
 <dd><span class="verdict">open</span></dd></dl>
 <details class="ledger-checks"><summary>What was checked</summary>
 <ul><li>8 of 10</li></ul></details>

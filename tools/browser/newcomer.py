@@ -17,8 +17,8 @@ START, ITEM = "intro", "xue.tab02"
 MOST = 5
 #: Milliseconds within which a thing on the way has to be seen.
 _SOON = 5_000
-_VERDICT = f"[id='{ITEM}'] .ledger-line .verdict"
-_REASONS = f"[id='{ITEM}'] .ledger-checks li"
+_VERDICT = ".ledger-item .ledger-line .verdict"
+_REASONS = ".ledger-item .ledger-checks li"
 
 
 class Way:
@@ -50,7 +50,7 @@ class Way:
 
     async def unfold(self, title: str) -> Locator:
         """Open the fold of the card with this title."""
-        fold = self.page.locator(f"[id='{ITEM}'] details").filter(
+        fold = self.page.locator(".ledger-item details").filter(
             has=self.page.locator(":scope > summary", has_text=title)
         )
         await self.click(fold.first.locator("> summary"), f"the fold {title}")
