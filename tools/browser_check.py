@@ -28,8 +28,8 @@ from prerun import ROOT, toc_pages
 SEED = 390
 #: Tabs at a time.
 TABS = 3
-#: One in so many pages of items is looked at closely, one in so many pages of source at all.
-SAMPLED, SOURCES = 12, 40
+#: One in so many pages of items is looked at closely, or at all, and so many of sources.
+CLOSELY, ITEMS, SOURCES = 20, 3, 50
 _SCENE_CLASS = SCENES.partition(".")[2]
 
 
@@ -57,9 +57,9 @@ async def check(html: Path, chapters: Sequence[str], *, alone: bool = False) -> 
         Whether no other page is looked at.
     """
     pages = list(chapters) if alone else pages_of(html)
-    closely = list(dict.fromkeys([*chapters, *sample(pages, "items", SAMPLED)]))
-    quickly = [name for name in pages if name.startswith("items/") and name not in closely]
-    quickly += sample(pages, "_modules", SOURCES)
+    closely = list(dict.fromkeys([*chapters, *sample(pages, "items", CLOSELY)]))
+    quickly = sample(pages, "items", ITEMS) + sample(pages, "_modules", SOURCES)
+    quickly = [name for name in quickly if name not in closely]
     async with browser() as running:
         report = Report(running.version)
         context = await running.new_context(viewport=WIDE)

@@ -15,8 +15,10 @@ fi
 as_root=""
 [ "$(id -u)" = 0 ] || as_root="sudo -n"
 echo "installing chromium with apt-get"
-if $as_root apt-get update -qq && $as_root env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends chromium >/dev/null; then
+# A machine without a network has to be told so soon, not after apt's many tries.
+soon="-o Acquire::Retries=1 -o Acquire::http::Timeout=20 -o Acquire::https::Timeout=20 -o DPkg::Lock::Timeout=60"
+if timeout 300 $as_root apt-get update -qq $soon && timeout 900 $as_root env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq $soon --no-install-recommends chromium >/dev/null && command -v chromium >/dev/null; then
   echo "chromium: $(command -v chromium)"
 else
   echo "NOT INSTALLED: apt-get could not install chromium; what needs a browser is not run" >&2

@@ -40,9 +40,8 @@ def notebooks_in(html: Path, chosen: Sequence[str] = ()) -> list[Path]:
     found = [folder / f"{page}.ipynb" for page in chosen] or sorted(folder.rglob("*.ipynb"))
     missing = [path.as_posix() for path in found if not path.is_file()]
     if missing or not found:
-        raise FileNotFoundError(
-            f"no notebooks: {', '.join(missing) or folder}; run make book first"
-        )
+        named = ", ".join(missing) or f"none in {folder}"
+        raise FileNotFoundError(f"no notebooks: {named}; make book writes them")
     return found
 
 

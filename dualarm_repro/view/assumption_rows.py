@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..ledger.changed import flipping
+from ..ledger.changed import flipping, setting
 from .numbers import number, words
 
 _EVIDENCE = {
@@ -48,10 +48,30 @@ def context_rows(made: Mapping[str, Any]) -> list[Row]:
     return [_row(entry, {"influence": {}, "flip": None}) for entry in made["context"]]
 
 
-def rerun(made: Mapping[str, Any]) -> str | None:
-    """The command that computes the item with the change that alone flips its outcome."""
-    change = flipping(made)
-    return f"dualarm run {made['id']} --set {change}" if change else None
+def rerun(made: Mapping[str, Any]) -> tuple[str, str] | None:
+    """A command that computes the item with one assumption changed, and what it is to show.
+
+    The change that alone flips the outcome, or else another plausible value of the assumption that
+    moves it most; None for an item whose assumptions have no other value.
+    """
+    if change := flipping(made):
+        return f"dualarm run {made['id']} --set {change}", "with the choice that flips it"
+    influence = (made["robustness"] or {}).get("influence", {})
+    for entry in sorted(made["assumptions"], key=lambda one: -influence.get(one["id"], 0.0)):
+        if (other := _another(entry)) is not None:
+            change = setting(entry["id"], other)
+            return f"dualarm run {made['id']} --set {change}", "with an assumption changed"
+    return None
+
+
+def _another(entry: Mapping[str, Any]) -> Any:
+    """A plausible value that is not the declared one: of a range the end that lies farther off."""
+    value = entry["value"]
+    if entry.get("range") and isinstance(value, int | float):
+        return max(entry["range"], key=lambda end: abs(end - value))
+    others = [one for one in entry.get("choices") or [] if one != value]
+    simple = [one for one in others if not isinstance(one, list | dict)]
+    return simple[0] if simple else None
 
 
 def _row(entry: Mapping[str, Any], found: Mapping[str, Any]) -> Row:

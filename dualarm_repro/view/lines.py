@@ -27,6 +27,25 @@ def line(made: Mapping[str, Any], which: str) -> str | None:
         return None
     if which == "obtained" and "{" not in text and not all(c["holds"] for c in made["checks"]):
         return None
+    return _filled(made, text)
+
+
+def beside(made: Mapping[str, Any]) -> dict[str, str]:
+    """What stands beside a printed value by its way, e.g. ``improved.mean_time``, where no obtained
+    value goes by the same name.
+
+    Raises
+    ------
+    LedgerError
+        A template names a value that the record does not have.
+    """
+    if not made["obtained"]:
+        return {}
+    texts = _worded().get(made.get("id", ""), {}).get("beside", {})
+    return {way: _filled(made, text) for way, text in texts.items()}
+
+
+def _filled(made: Mapping[str, Any], text: str) -> str:
     return fill(
         text,
         f"{_FILE.name}, {made['id']}",
@@ -37,6 +56,6 @@ def line(made: Mapping[str, Any], which: str) -> str | None:
 
 
 @cache
-def _worded() -> dict[str, dict[str, str]]:
-    loaded: dict[str, dict[str, str]] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+def _worded() -> dict[str, dict[str, Any]]:
+    loaded: dict[str, dict[str, Any]] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
     return loaded

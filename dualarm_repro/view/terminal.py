@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from shlex import join
 from typing import Any
 
-from ..ledger.changed import flipping, setting, typed
+from ..ledger.changed import setting, typed
+from .assumption_rows import rerun
 from .badge import percent
-from .printed_beside import Row, check_rows, printed_rows
+from .printed_beside import Row, check_rows, in_words, printed_rows
 from .wording import search_lines, share_of, short
 
 #: Colour of a verdict on a terminal; the word says the same.
@@ -39,6 +40,8 @@ def describe(made: dict[str, Any]) -> Iterator[str]:
     if rows := printed_rows(made):
         yield f"printed{f' ({unit})' if (unit := made['unit']) else ''} | obtained:"
         yield from (_line(row) for row in rows)
+        if told := in_words(made):
+            yield f"  in words: {told}"
     if made["caption"]:
         yield made["caption"]
     for row, before in zip(check_rows(made), before_rows(made), strict=True):
@@ -59,9 +62,9 @@ def place_lines(made: dict[str, Any]) -> Iterator[str]:
     changes = (setting(one["assumption"], one["value"]) for one in made.get("changed", ()))
     again = join(["dualarm", "run", made["id"], *(f"--set={change}" for change in changes)])
     yield f"again: {again}; cite: dualarm cite {made['id']}"
-    if made["assumptions"] and "changed" not in made:
-        change = flipping(made) or f"{made['assumptions'][0]['id']}=VALUE"
-        yield f"with another value: dualarm run {made['id']} --set {change}"
+    if "changed" not in made and (other := rerun(made)):
+        command, what = other
+        yield f"{what}: {command}"
 
 
 def changed_lines(made: dict[str, Any]) -> Iterator[str]:

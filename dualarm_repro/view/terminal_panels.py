@@ -11,7 +11,7 @@ from rich.panel import Panel
 from rich.table import Table
 from rich.text import Text
 
-from .printed_beside import check_rows, printed_rows
+from .printed_beside import check_rows, in_words, printed_rows
 from .terminal import (
     before_rows,
     changed_lines,
@@ -96,6 +96,8 @@ def _printed(made: dict[str, Any]) -> Iterator[RenderableType]:
     width = 3 if any(row.obtained for row in rows) else 2
     table = _table(columns[:width], [row[:width] for row in rows], "In print")
     yield from (Text(), table)
+    if told := in_words(made):
+        yield Padding(Text.assemble(("obtained, in words: ", "dim"), told), (0, 1))
 
 
 def _influential_first(made: dict[str, Any]) -> list[dict[str, Any]]:

@@ -231,3 +231,11 @@ def test_bytes_are_limited(html):
     assert check_book.over_budget(html, page=size) == []
     (line,) = check_book.over_budget(html, book=100)
     assert line.startswith("book: ")
+
+
+def test_the_words_of_a_verdict_are_no_failure(html):
+    said = '<dl class="ledger-line"><dd>not found in 300 tries</dd></dl>'
+    pages = change(html, "toy/page.html", "<pre>2.784</pre>", said)
+    assert check_book.failed_outputs(pages) == []
+    pages = change(html, "toy/page.html", said, said + "<p>file not found</p>")
+    assert check_book.failed_outputs(pages) == ["toy/page: an output shows 'not found'"]

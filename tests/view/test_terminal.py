@@ -8,7 +8,7 @@ from rich.console import Console
 from dualarm_repro.ledger import record
 from dualarm_repro.ledger.printed import leaves
 from dualarm_repro.papers import load
-from dualarm_repro.view.printed_beside import check_rows, printed_rows
+from dualarm_repro.view.printed_beside import check_rows, in_words, printed_rows
 from dualarm_repro.view.terminal import describe, verdict_style
 from dualarm_repro.view.terminal_panels import panels
 
@@ -75,3 +75,37 @@ def test_a_real_record_can_be_drawn(item_id):
     assert made["verdict"] in text
     assert f"dualarm run {item_id}" in text
     assert verdict_style(made["verdict"]) != "dim"
+
+
+def test_names_pair_in_any_order_and_words_where_none_does():
+    made = {
+        "id": "toy.x",
+        "pending": None,
+        "kind": "table",
+        "caption": None,
+        "printed": {"old": {"trapped": "8", "mean_time": "0.41"}},
+        "obtained": {"trapped": {"old": 7}},
+        "checks": [],
+    }
+    assert [row.obtained for row in printed_rows(made)] == ["7", ""]
+    assert in_words(made) is None  # no rule, nothing to say
+    check = {"label": "runs held", "role": "supports", "expected": "printed 8", "obtained": 7,
+             "outcome": "fails"}  # fmt: skip
+    assert "7" in in_words({**made, "checks": [check]})
+    both = {**made, "obtained": {"trapped": {"old": 7}, "mean_time": {"old": 2}}, "checks": [check]}
+    assert in_words(both) is None
+
+
+def test_table_2_has_something_beside_every_printed_value():
+    made = record(load(), "xue.tab02")
+    rows = {row.what: row.obtained for row in printed_rows(made)}
+    assert all(rows.values())
+    for method, count in made["obtained"]["missed"].items():
+        assert rows[f"{method}, trapped"].startswith(f"{count} ")
+
+
+@pytest.mark.parametrize("show", [lambda made: "\n".join(describe(made)), drawn])
+def test_both_forms_show_the_words(show):
+    made = {**RECORD, "printed": {"other": "0.50"}}
+    assert "in words" in show(made)
+    assert "in words" not in show(RECORD)

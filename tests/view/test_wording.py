@@ -5,6 +5,7 @@ import yaml
 
 from dualarm_repro.errors import LedgerError
 from dualarm_repro.ledger import record
+from dualarm_repro.ledger.printed import leaves
 from dualarm_repro.view import lines
 from dualarm_repro.view.numbers import beside, number, words
 from dualarm_repro.view.rule_sentences import rule_sentence, split_unit
@@ -85,7 +86,11 @@ def test_the_worded_lines_name_items_and_values(registry):
     worded = yaml.safe_load(lines._FILE.read_text(encoding="utf-8"))
     assert set(worded) <= set(registry.items)
     for item_id, texts in worded.items():
-        assert set(texts) <= {"printed", "obtained"}
+        assert set(texts) <= {"printed", "obtained", "beside"}
+        ways = {
+            ".".join(map(str, path)) for path, _ in leaves(registry.item(item_id).printed or {})
+        }
+        assert set(texts.get("beside", {})) <= ways
         made = {"id": item_id, "printed": registry.item(item_id).printed, "obtained": None,
                 "robustness": None, "checks": []}  # fmt: skip
         assert ("printed" in texts) == (lines.line(made, "printed") is not None)

@@ -74,13 +74,13 @@ def bind(
     for sheet in sheets:
         if sheet.part != part:
             part = sheet.part
-            below = writer.add_outline_item(part, first[sheet.name] - 1)
-        writer.add_outline_item(sheet.title, first[sheet.name] - 1, parent=below)
+            below = writer.add_outline_item(title=part, page_number=first[sheet.name] - 1)
+        writer.add_outline_item(title=sheet.title, page_number=first[sheet.name] - 1, parent=below)
     for page, number in zip(writer.pages, PdfReader(numbers).pages, strict=True):
         page.merge_page(number)
         _turn_inside(writer, page, first, html.resolve())
     writer.add_metadata({"/Title": title})
-    writer.compress_identical_objects(remove_identicals=True, remove_orphans=True)
+    writer.compress_identical_objects(remove_duplicates=True, remove_unreferenced=True)
     writer.write(target)
     return len(writer.pages)
 

@@ -43,7 +43,15 @@ _TOO_WIDE = """() => {
   return [`${document.scrollingElement.scrollWidth} px on ${wide}: ` +
     found.slice(-2).map((one) => one.outerHTML.slice(0, 120)).join(" | ")];
 }"""
-_AXE = """(rules) => axe.run(document, Object.assign(
+#: Words that end in dots because their box is too narrow, and code that a wide screen cuts off.
+_CUT = """() => [...document.querySelectorAll("article *")]
+  .filter((one) => one.scrollWidth > one.clientWidth + 1 &&
+    (getComputedStyle(one).textOverflow === "ellipsis" ||
+      (innerWidth > 1000 && one.matches(".cell_input pre"))))
+  .map((one) => "cut off: " + one.textContent.trim().slice(0, 80))"""
+#: Pages of which the frame that all share is looked at as well.
+WHOLE = ("intro", "search")
+_AXE = """([rules, within]) => axe.run(within || document, Object.assign(
   {resultTypes: ["violations"], iframes: false, preload: false},
   rules ? {runOnly: {type: "rule", values: rules}} : {}))"""
 
@@ -64,34 +72,30 @@ async def look_at(
     closely
         Whether accessibility is checked, too, which takes most of the time.
     """
-    path = html / f"{name}.html"
-    async with visit(context, path) as made:
+    unfriendly, wide = [], []
+    async with visit(context, html / f"{name}.html") as made:
         page = made.page
         words = (await page.evaluate(READ))["words"]
         report.add("maths", name, await page.evaluate(_MATHS))
         await page.evaluate(_UNFOLD, name.startswith("items/"))
-        wide = await _widths(page, closely, report, name)
+        for size, themes in ((WIDE, ("light", "dark")), (PHONE, ("dark", "light"))):
+            await page.set_viewport_size(size)
+            wide += [f"{size['width']} px, {text}" for text in await page.evaluate(_CUT)]
+            for theme in themes:
+                await set_theme(page, theme)
+                wide += [f"{theme}, {text}" for text in await page.evaluate(_TOO_WIDE)]
+                if closely and size == WIDE:
+                    rules = ["color-contrast"] if theme == "dark" else None  # all others know none
+                    within = None if name in WHOLE else "main"
+                    found = await unfriendly_to(page, rules, within)
+                    unfriendly += [f"{theme}: {text}" for text in found]
+        await page.set_viewport_size(WIDE)
         report.add("width", name, wide)
         report.add("console", name, dict.fromkeys(made.said))
         report.add("size", name, _too_large(made.files, html))
-        return words
-
-
-async def _widths(page: Page, closely: bool, report: Report, name: str) -> list[str]:
-    """Width in every state, and on the way accessibility where the screen is wide."""
-    found, unfriendly = [], []
-    for theme in ("light", "dark"):
-        await set_theme(page, theme)
-        if closely:
-            rules = ["color-contrast"] if theme == "dark" else None  # the rest knows no colours
-            unfriendly += [f"{theme}: {text}" for text in await unfriendly_to(page, rules)]
-        for size in (WIDE, PHONE):
-            await page.set_viewport_size(size)
-            found += [f"{theme}, {text}" for text in await page.evaluate(_TOO_WIDE)]
-        await page.set_viewport_size(WIDE)
     if closely:
         report.add("access", name, unfriendly)
-    return found
+    return words
 
 
 async def set_theme(page: Page, theme: str) -> None:
@@ -102,11 +106,13 @@ async def set_theme(page: Page, theme: str) -> None:
     await page.evaluate("() => Promise.all(document.getAnimations().map((one) => one.finish()))")
 
 
-async def unfriendly_to(page: Page, rules: Collection[str] | None = None) -> list[str]:
-    """Serious and critical findings of axe-core, all rules or some."""
+async def unfriendly_to(
+    page: Page, rules: Collection[str] | None = None, within: str | None = None
+) -> list[str]:
+    """Serious and critical findings of axe-core: all rules or some, the whole page or a part."""
     if not await page.evaluate("() => Boolean(window.axe)"):
         await page.evaluate(axe_script())
-    found: dict[str, Any] = await page.evaluate(_AXE, list(rules) if rules else None)
+    found: dict[str, Any] = await page.evaluate(_AXE, [rules and list(rules), within])
     return [
         f"{one['id']} ({one['impact']}, {len(one['nodes'])}): {one['nodes'][0]['html'][:160]}"
         for one in found["violations"]

@@ -10,13 +10,16 @@ from .page_checks import set_theme
 from .visit import visit
 
 _LOADED = "() => Promise.all([...document.images].map((one) => one.decode().catch(() => {})))"
+#: In a book with contents no page needs its own.
+_BOUND = "#jb-print-toc { display: none; }"
 
 
 async def print_page(context: BrowserContext, source: Path, target: Path) -> None:
-    """One page of the book as a PDF."""
+    """One page of a bound book as a PDF."""
     async with visit(context, source) as made:
         page = made.page
         await set_theme(page, "light")
+        await page.add_style_tag(content=_BOUND)
         await print_open(page, target)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
-from playwright.async_api import BrowserContext
+from playwright.async_api import BrowserContext, TimeoutError
 
+from . import newcomer
 from .report import Report
 from .visit import visit
 
@@ -15,6 +16,9 @@ Use = Callable[[BrowserContext, Path], Awaitable[list[str]]]
 DARK = 0.25
 _SHOWN = """() => [...document.querySelectorAll(".ledger-row:not([hidden])")]
   .map((one) => one.dataset.paper)"""
+_ALL_SHOWN = "() => !document.querySelector('.ledger-row[hidden]')"
+_NUMBER = """() => [...document.querySelectorAll(".ledger-print td")]
+  .map((one) => one.textContent.trim()).find((text) => /^-?\\d+\\.\\d+$/.test(text))"""
 _UNFOLD = "() => document.querySelectorAll('details').forEach((one) => { one.open = true; })"
 _GROUND = """() => {
   const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/[\\d.]+/g).map(Number);
@@ -42,7 +46,9 @@ async def filters(context: BrowserContext, html: Path) -> list[str]:
         if not 1 <= len(await page.evaluate(_SHOWN)) < len(chosen):
             lines.append(f"the words {words!r} do not narrow the table down")
         await page.locator("#ledger-table button[type=reset]").click()
-        if len(await page.evaluate(_SHOWN)) != len(everything):
+        try:
+            await page.wait_for_function(_ALL_SHOWN, timeout=5_000)
+        except TimeoutError:
             lines.append("clear does not show all items again")
         return lines
 
@@ -90,21 +96,19 @@ async def copying(context: BrowserContext, html: Path) -> list[str]:
 
 
 async def search(context: BrowserContext, html: Path) -> list[str]:
-    """The search finds a page by its title and an item by a word of print, and leads there."""
+    """The search finds an item by a printed number and by its name, and leads there."""
     item = _an_item(html)
     async with visit(context, item) as made:
-        word = await made.page.evaluate(
-            "() => (document.querySelector('.ledger-print')?.textContent.match(/\\d+\\.\\d+/) ||"
-            " document.querySelector('h1').textContent.match(/[a-z]{6,}/))[0]"
-        )
+        number = await made.page.evaluate(_NUMBER)
     lines = []
-    for words, page_name in ((word, f"items/{item.stem}"), (item.stem, f"items/{item.stem}")):
+    page_name = f"items/{item.stem}"
+    for words in filter(None, (number, item.stem)):
         async with visit(context, html / "search.html", f"?q={words}") as made:
             page = made.page
             hit = page.locator(f"#search-results a[href*='{page_name}.html']")
             try:
-                await hit.first.wait_for(timeout=20_000)
-            except Exception:  # playwright's own, and only a time-out can happen
+                await hit.first.wait_for(timeout=30_000)
+            except TimeoutError:
                 lines.append(f"{words!r} does not find {page_name}")
                 continue
             await hit.first.click()
@@ -137,6 +141,7 @@ USES: dict[str, Use] = {
     "a citation": copying,
     "search": search,
     "dark mode": dark_mode,
+    "a newcomer": newcomer.walk,
 }
 
 
