@@ -39,6 +39,8 @@ BODIES = {
     "nameless": "<button></button>",
     "pale": '<p class="pale">Pale words.</p>',
     "large": '<img alt="large" src="large.svg">',
+    "typeset": '<span class="math">x</span><script>document.querySelector(".math").innerHTML ='
+    + " '<mjx-container>' + 'x '.repeat(60) + '</mjx-container>'</script>",
     "written": "<script>document.write('<p>' + 'word '.repeat(50) + '</p>')</script>",
 }
 STYLES = {"pale": 'html[data-theme="dark"] .pale { color: #ddd; background: #fff; }'}
@@ -97,7 +99,7 @@ def problems(report, page):
 
 
 def test_a_healthy_page_has_no_problem(found):
-    assert problems(found, "good") == {}
+    assert problems(found, "good") == problems(found, "typeset") == {}
     assert found.tried.keys() >= CHECKS.keys() - {"links", "use"}
 
 

@@ -9,14 +9,19 @@ from playwright.async_api import BrowserContext
 from .report import Report
 from .visit import visit
 
-#: Shares of the words with scripts that are left without; formulas are then their source.
+#: Share of the words with scripts that is left without. Formulas do not count: typeset they are
+#: one word a symbol, and without scripts they are their source.
 LEAST_WORDS = 0.9
 #: What an open page says: its words, and the pictures of it that are blank.
-READ = """() => ({
-  words: (document.querySelector("article")?.innerText.match(/\\S+/g) || []).length,
-  blank: [...document.querySelectorAll("article img")]
-    .filter((one) => one.complete && !one.naturalWidth).length,
-})"""
+READ = """() => {
+  const count = (part) => (part?.innerText.match(/\\S+/g) || []).length;
+  const formulas = [...document.querySelectorAll("article .math")].map(count);
+  return {
+    words: count(document.querySelector("article")) - formulas.reduce((a, b) => a + b, 0),
+    blank: [...document.querySelectorAll("article img")]
+      .filter((one) => one.complete && !one.naturalWidth).length,
+  };
+}"""
 
 
 async def read_page(
