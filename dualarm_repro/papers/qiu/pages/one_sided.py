@@ -162,6 +162,7 @@ def lambda_effect(assumed: Assumed) -> Result:
         Bounded(
             "chatter", "chatter with constant gain, as a share of a full zigzag", low="chatters"
         ),
+        Bounded("reduction", "chatter with variable over that with constant gain", high="clearly"),
         NO_CURVES,
     ],
 )
@@ -176,6 +177,7 @@ def height_with_both_gains(assumed: Assumed) -> Result:
         obtained={
             "chatter": levels["constant"],
             "chatter_variable": levels["variable"],
+            "reduction": levels["variable"] / levels["constant"] if levels["constant"] else None,
             "flips": [plan.record.flips[0] for plan in plans.values()],
             "searches": [plan.searches for plan in plans.values()],
             "clearance": [plan.control_clearance for plan in plans.values()],
