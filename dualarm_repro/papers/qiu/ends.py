@@ -93,6 +93,7 @@ def joints_of(
 ) -> Result:
     """Joint angles on the smoothed paths (N, 6) [rad] of both readings, and what is obtained
     ``more``; the rules look at face value."""
+    plans = list(plans)
     face, junctions = paths[FACE_VALUE], [plan.searches + 0.5 for plan in plans]
     return Result(
         obtained={
@@ -103,19 +104,33 @@ def joints_of(
         table=pd.DataFrame(np.rad2deg(face), columns=JOINT_COLUMNS),
         caption=told,
         alt=alt,
-        figure=lambda: joint_figure(paths, junctions),
+        figure=lambda: joint_figure(
+            paths,
+            junctions,
+            ends={"start": (0, plans[0].problem.start)}
+            | {
+                f"goal, {name}": _at_end(path, plan.problem.goal)
+                for (name, path), plan in zip(paths.items(), plans, strict=True)
+            },
+        ),
     )
+
+
+def _at_end(path: np.ndarray, point: np.ndarray) -> tuple[int, np.ndarray]:
+    return len(path) - 1, point
 
 
 def coordinates_of(
     tips: Mapping[str, np.ndarray],
     errors: Mapping[str, float],
     halves: np.ndarray,
+    task: Mapping[str, np.ndarray],
     told: Caption,
     alt: str,
 ) -> Result:
     """Flanges (N, 3) [m] along the smoothed paths of both readings, with the printed ends of the
-    halves (2, 3) [m] and the ``errors`` of the path at its ends."""
+    halves (2, 3) [m], the printed start and goals of the ``task`` (3,) and the ``errors`` of the
+    path at its ends."""
     tip = tips[FACE_VALUE]
     marks = {f"printed, {half}": end for half, end in by_half(halves).items()}
     return Result(
@@ -127,5 +142,10 @@ def coordinates_of(
         table=pd.DataFrame(tip, columns=TIP_COLUMNS),
         caption=told,
         alt=alt,
-        figure=lambda: coordinate_figure(tips, marks, "sample of the path"),
+        figure=lambda: coordinate_figure(
+            tips,
+            marks,
+            "sample of the path",
+            {n: (0, p) if "start" in n else _at_end(tip, p) for n, p in task.items()},
+        ),
     )

@@ -10,6 +10,7 @@ import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
 from ....ledger.captions import captions
+from ....ledger.printed_values import printed_numbers
 from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.path_measures import WINDOW, chatter, until_rest
 from ....planning.field.control_points import end_effector
@@ -201,10 +202,21 @@ def height_with_both_gains(assumed: Assumed) -> Result:
 def path_among_spheres(assumed: Assumed) -> Result:
     """Flange path and postures of the one-way search."""
     plans, trap = Traditional.of(assumed).readings(), PRINTED.trap
+    start = printed_numbers("qiu.claim_start", "tcp")
     face, other = plans.values()
     goals = {name: end_effector(plan.placed, plan.problem.goal) for name, plan in plans.items()}
     panels = [
-        search_panel(name, plan, {"flange": plan.tcp}, {"goal": goals[name], "printed trap": trap})
+        search_panel(
+            name,
+            plan,
+            {"flange": plan.tcp},
+            {
+                "start": start,
+                "printed goal": PRINTED.master_goal,
+                "printed trap": trap,
+                "goal planned to": goals[name],
+            },
+        )
         for name, plan in plans.items()
     ]
     away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2).min()
@@ -237,6 +249,7 @@ def _scene(plan: SearchPlan, goal: np.ndarray) -> Scene3D:
 def coordinates(assumed: Assumed) -> Result:
     """x, y and z of the flange over the searches of the one-way run."""
     face, other = _both(assumed)
+    goal = end_effector(face.placed, face.problem.goal)
     return Result(
         obtained={
             "chatter": _chatter(face, assumed["oscillation_measure"]),
@@ -248,6 +261,12 @@ def coordinates(assumed: Assumed) -> Result:
         alt="Coordinates of the flange over the searches for two readings, with the printed trap "
         "as dashed levels.",
         figure=lambda: coordinate_figure(
-            {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp}, {"printed trap": PRINTED.trap}
+            {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp},
+            {"printed trap": PRINTED.trap},
+            ends={
+                "printed start": (0, printed_numbers("qiu.claim_start", "tcp")),
+                "printed goal": (len(face.tcp) - 1, PRINTED.master_goal),
+                "goal planned to": (len(face.tcp) - 1, goal),
+            },
         ),
     )

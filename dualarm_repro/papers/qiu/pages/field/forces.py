@@ -27,7 +27,7 @@ from ...reading import CONTROL_POINTS, Search
 checks = partial(REGISTRY.checks, page="qiu/field")
 caption = captions(__file__)
 _CONTACT = 1e-3
-_SAMPLES = 40
+_SAMPLES, _TABLED = 40, 100
 _NO_FORMULA = NoOriginal("formula", "the formula")
 
 
@@ -103,7 +103,29 @@ def resultant(assumed: Assumed) -> Result:
         size = float(np.linalg.norm(pull + push))
         gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
         worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
-    return Result(obtained={"difference": worst, "postures": _SAMPLES}, caption=caption("eq04"))
+    return Result(
+        obtained={"difference": worst, "postures": _SAMPLES},
+        table=_forces(made, attraction),
+        caption=caption("eq04"),
+    )
+
+
+def _forces(
+    made: SearchProblem, attraction: tuple[np.ndarray, float, float, Threshold]
+) -> pd.DataFrame:
+    """Both forces at random postures (N, 6) [rad], as columns of joints."""
+    q = made.placed.arm.random_configurations(_TABLED, np.random.default_rng(SEED))
+    parts = {
+        "q": q,
+        "goal": np.tile(made.goal, (_TABLED, 1)),
+        "F_att": [conic_force(row, *attraction) for row in q],
+        "F_rep": [repulsive_torque_at(made, row) for row in q],
+    }
+    frames = (
+        pd.DataFrame(rows, columns=[f"{name}{j}" for j in range(1, 7)])
+        for name, rows in parts.items()
+    )
+    return pd.concat(frames, axis=1)
 
 
 @checks(

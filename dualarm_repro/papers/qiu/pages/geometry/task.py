@@ -36,6 +36,7 @@ from .arm import flange_by_offsets
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
 caption = captions(__file__)
+_SETS = 4  # of goals that Table 2 is made of
 _given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inputs")
 
 
@@ -335,8 +336,12 @@ def goals_15(assumed: Assumed) -> Result:
     centre = printed_numbers("qiu.claim_goals15", "centre")
     nearer = float(np.linalg.norm(PRINTED.centres - centre, axis=1).min()) - PRINTED.radius
     farthest = float(np.linalg.norm(drawn.points - centre, axis=1).max(initial=0.0))
-    table = pd.DataFrame(drawn.points, columns=TIP_COLUMNS)
-    table[JOINT_COLUMNS] = np.rad2deg(drawn.q)
+    box, tables = GoalBox.of(assumed), []
+    for seed in range(SEED, SEED + _SETS):
+        one = drawn if seed == SEED else box.draw(seed)
+        points = pd.DataFrame(one.points, columns=TIP_COLUMNS).assign(seed=seed)
+        points[JOINT_COLUMNS] = np.rad2deg(one.q)
+        tables.append(points)
     return Result(
         obtained={
             "count": len(np.unique(drawn.points, axis=0)),
@@ -344,7 +349,7 @@ def goals_15(assumed: Assumed) -> Result:
             "farthest": farthest,
             "rejected": drawn.rejected,
         },
-        table=table,
+        table=pd.concat(tables, ignore_index=True),
         caption=caption(
             "claim_goals15", goals=len(drawn.q), width=assumed["goal_set"], nearer=nearer
         ),

@@ -9,6 +9,7 @@ import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....ledger.captions import captions
+from .....ledger.printed_values import printed_numbers
 from .....planning.checks.contact_check import SAMPLING
 from .....planning.field.control_points import end_effector
 from .....planning.search.dual_search import DualSearch
@@ -58,6 +59,10 @@ def slave_coordinates(assumed: Assumed) -> Result:
         tips,
         {"end_error": float(np.linalg.norm(shifts, axis=1).max())},
         halves,
+        {
+            "printed start": printed_numbers("qiu.claim_slave_task", "start"),
+            "printed goal": PRINTED.slave_goal,
+        },
         caption("fig16", height=halves[0, 2]),
         "Three panels with x, y and z of the slave's flange over its path for two readings.",
     )
