@@ -4,6 +4,8 @@ Standard convention: A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i). A capsule of
 the frame before d_i, after theta_i.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import yaml
 
@@ -120,7 +122,7 @@ def arm_to_spheres(arm, q, centres, radius):
 def densified(path, most=0.02):
     """Samples between the rows (N, n) so that no joint moves more than ``most`` [rad]."""
     rows = [path[:1]]
-    for start, end in zip(path[:-1], path[1:], strict=True):
+    for start, end in pairwise(path):
         pieces = max(int(np.ceil(np.abs(end - start).max() / most)), 1)
         rows.append(start + np.arange(1, pieces + 1)[:, np.newaxis] / pieces * (end - start))
     return np.vstack(rows)
