@@ -7,7 +7,6 @@ open about the search drawn from its plausible values.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from ....planning.search.failure import classify
 from ....planning.search.variants import IMPROVED, TRADITIONAL
 from ....planning.tasks.random_tasks import blocked_goal
 from ....scene import JointPath, Scene, distances
+from ....tracking import memo
 from ..document import MARGIN, SEED, placed
 from ..reading import Hull, Improved
 from .drawing import OPEN, drawn
@@ -71,7 +71,7 @@ def _task(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]
             return ends[0], ends[1], blocked_goal(scene, ends[1], MARGIN, rng)
 
 
-@cache
+@memo()
 def _both() -> Scene:
     return Scene([placed("master"), placed("slave")], {})
 
