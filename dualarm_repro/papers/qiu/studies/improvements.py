@@ -40,7 +40,7 @@ def _cells() -> list[dict[str, Any]]:
 
 def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     scene, start, goal = random_task(cell["spheres"], rng)
-    obstacles = obstacles_of(scene, leave_out=("floor",))
+    obstacles = obstacles_of(scene)
     fields = ("value", "range", "scale", "choices")
     drawn = {key: REGISTRY.declared(f"qiu.{key}", *fields).at(rng.random()) for key in DRAWN}
     reading = Improved.nominal(**drawn, gain_ratio=cell["gain_ratio"])

@@ -10,6 +10,7 @@ import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....ledger.captions import captions
+from .....ledger.printed_values import printed_numbers
 from .....planning.checks.contact_check import ContactCheck, contact_check
 from .....planning.field.control_points import end_effector
 from .....planning.search.search_plan import SearchPlan
@@ -19,12 +20,14 @@ from .....view.search_curves import splice_figure
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
 from ... import ends
+from ...calibrated import readings
 from ...document import FACE_VALUE, PRINTED, spheres, truth_scene
 from ...reading import Improved, Splice
+from ...studies.fit import FIT
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 caption = captions(__file__)
-_PLAYED = "Reconstruction: both halves of the master's path, forward and backward."
+_PLAYED = "Calibrated reading: both halves of the master's path, forward and backward."
 
 
 def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
@@ -34,12 +37,13 @@ def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
 
 
 def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
-    """How the search came out, at face value and in the reconstruction."""
+    """How the search came out, at face value and by the calibrated reading."""
     found = []
-    for plan in Improved.of(assumed).readings().values():
+    for plan in readings(Improved.of(assumed)).values():
         check = truth(plan)
         contact = {"gap_rad": plan.gap, "free": check.free, "clearance": check.clearance}
-        found.append(ends.outcome(plan, PRINTED.meeting) | contact)
+        searches = printed_numbers("qiu.claim_bi_counts", *ends.HALVES)
+        found.append(ends.outcome(plan, PRINTED.meeting, searches) | contact)
     return found
 
 
@@ -47,7 +51,8 @@ def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     printed = REGISTRY.printed("qiu.claim_bi_counts")["forward"]
-    return Result(ends.counted(*_summaries(assumed)), caption("claim_bi_counts", printed=printed))
+    obtained = ends.counted(*_summaries(assumed), FIT.load())
+    return Result(obtained, caption("claim_bi_counts", printed=printed))
 
 
 @checks("qiu.claim_bi_meet", rules=ends.meeting_rules("the two halves meet"))
@@ -58,6 +63,7 @@ def meeting(assumed: Assumed) -> Result:
     return Result(
         obtained=ends.met(face, other, PRINTED.meeting),
         caption=caption("claim_bi_meet", reason=face["reason"], height=height),
+        witnesses=ends.fit_witness(FIT.load()),
     )
 
 
@@ -70,7 +76,7 @@ def meeting(assumed: Assumed) -> Result:
 )
 def both_halves(assumed: Assumed) -> Result:
     """Flange paths of both halves among the spheres."""
-    plans, printed = Improved.of(assumed).readings(), PRINTED.meeting
+    plans, printed = readings(Improved.of(assumed)), PRINTED.meeting
     face, other = plans.values()
     panels = [
         search_panel(name, plan, ends.by_half(plan.half_tcp), {"printed ends": printed})
@@ -80,9 +86,9 @@ def both_halves(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "apart": face.gap - assumed["joint_tolerance"],
-            "reconstruction_joined": other.reached,
+            "calibrated_joined": other.reached,
             "clearance": truth(face).clearance,
-            "clearance_reconstruction": truth(other).clearance,
+            "clearance_calibrated": truth(other).clearance,
         },
         table=face.to_frame(),
         caption=caption("fig12", face=face, other=other, printed=printed),
@@ -143,7 +149,7 @@ def _bend(path: np.ndarray, junction: int) -> float:
 @checks("qiu.fig13", rules=ends.JOINT_RULES)
 def joint_angles(assumed: Assumed) -> Result:
     """All joint angles of the joined and smoothed path."""
-    plans, smooth = Improved.of(assumed).readings(), Splice.of(assumed).smooth
+    plans, smooth = readings(Improved.of(assumed)), Splice.of(assumed).smooth
     return ends.joints_of(
         {name: smooth(plan.path) for name, plan in plans.items()},
         plans.values(),
@@ -163,7 +169,7 @@ def joint_angles(assumed: Assumed) -> Result:
 )
 def tip_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the flange on the joined and smoothed path."""
-    plans, halves = Improved.of(assumed).readings(), PRINTED.meeting
+    plans, halves = readings(Improved.of(assumed)), PRINTED.meeting
     smooth = Splice.of(assumed).smooth
     tips = {name: end_effector(plan.placed, smooth(plan.path)) for name, plan in plans.items()}
     shifts = np.linalg.norm(tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].tcp[[0, -1]], axis=1)
