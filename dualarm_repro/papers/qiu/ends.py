@@ -79,11 +79,12 @@ def tally(fit: pd.DataFrame) -> dict[str, Any]:
     return sums | {"nearest": float(fit["nearest"].min()), "calibrated": float(fit["error"].min())}
 
 
-def fit_witness(fit: pd.DataFrame) -> list[dict[str, Any]]:
-    """The reading that the fit prefers as a witness for the printed ends of the halves."""
+def fit_witness(fit: pd.DataFrame, within: float = _NEAR) -> list[dict[str, Any]]:
+    """The reading that the fit prefers, which has the printed number of searches, as a witness for
+    ends of the halves ``within`` a distance of the printed ones [m]."""
     index = fit["error"].idxmin()
     row = {str(key): value for key, value in fit.loc[index].items()}
-    holds = row["error"] <= _NEAR
+    holds = row["error"] <= within
     verdict = "holds" if holds else "fails"
     return [{"choice": f"fit, cell {index}", "verdict": verdict, "values": row}]
 

@@ -87,7 +87,8 @@ def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
     printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
     obtained = ends.counted(*_outcomes(assumed), FIT_SLAVE.load())
-    return Result(obtained, caption("claim_slave_counts", printed=printed))
+    told = caption("claim_slave_counts", printed=printed)
+    return Result(obtained, told, witnesses=ends.fit_witness(FIT_SLAVE.load(), np.inf))
 
 
 @checks("qiu.claim_slave_meet", rules=ends.meeting_rules("the slave's halves meet"))

@@ -52,7 +52,11 @@ def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     printed = REGISTRY.printed("qiu.claim_bi_counts")["forward"]
     obtained = ends.counted(*_summaries(assumed), FIT.load())
-    return Result(obtained, caption("claim_bi_counts", printed=printed))
+    told, witnesses = (
+        caption("claim_bi_counts", printed=printed),
+        ends.fit_witness(FIT.load(), np.inf),
+    )
+    return Result(obtained, told, witnesses=witnesses)
 
 
 @checks("qiu.claim_bi_meet", rules=ends.meeting_rules("the two halves meet"))
