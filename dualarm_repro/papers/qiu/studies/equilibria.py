@@ -18,6 +18,7 @@ from scipy.stats import qmc
 from ....errors import InputError
 from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import alternatives
+from ....ledger.comparison import Comparison
 from ....planning.search.equilibrium import nearest_equilibria
 from ....planning.search.search_problem import search_problem
 from ....planning.tasks.elbow_branches import BRANCHES, branch_posture
@@ -26,6 +27,8 @@ from ..reading import CONTROL_POINTS, Goal, Traditional
 from .fit import combinations
 
 STARTS = 4
+#: Columns in which round-off at the start of a descent is seen.
+_ROUGH = ("ratio", "curvature", *(f"{end}{j}" for end in ("q", "goal") for j in range(1, 7)))
 _BEND = np.deg2rad(120.0)  # of joint 5 of the arm
 
 
@@ -84,5 +87,13 @@ EQUILIBRIA = REGISTRY.keeps(
         compute=_cell,
         seed=SEED + 40,
         settings={"starts": STARTS},
+        measured=_ROUGH,
+        compared=(
+            Comparison(
+                "angle_deg",
+                "a descent of few steps amplifies round-off; measured 0.4 degrees",
+                absolute=2.0,
+            ),
+        ),
     )
 )
