@@ -58,6 +58,9 @@ FREE = REGISTRY.keeps(
 
 
 def free_reading() -> Slave:
-    """Of the readings whose motion is free, the one that keeps the largest distance."""
-    table = FREE.load()
-    return reading_of(table.loc[table["smallest"].where(table["free"]).idxmax()], Slave)
+    """Of the readings whose motion is free, above a table if there are such, the one that keeps
+    the largest distance."""
+    free = FREE.load().query("free")
+    above = free[free["floor"] != "none"]
+    chosen = above if len(above) else free
+    return reading_of(chosen.loc[chosen["smallest"].idxmax()], Slave)

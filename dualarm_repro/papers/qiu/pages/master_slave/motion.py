@@ -80,6 +80,7 @@ def both_arms_together(assumed: Assumed) -> Result:
     plans, scene = dual_readings(reading), reading.scene(radii)
     face, free = plans[FACE_VALUE], chosen.dual_plan()
     plans[FREE_OF_CONTACT] = free
+    keeps = free.contact(chosen.scene()).smallest
     pairs = {"arm to arm": ("master",), "slave to spheres": tuple(spheres())}
     curves = {
         f"{pair}, {name}": _distance(scene, densify(plan.stacked(scene), SAMPLING)[0], *bodies)
@@ -92,7 +93,7 @@ def both_arms_together(assumed: Assumed) -> Result:
             "smallest": {name: float(values.min()) for name, values in curves.items()},
             "yield": _yield(),
         },
-        caption=caption("fig17", chosen=chosen, margin=MARGIN),
+        caption=caption("fig17", chosen=chosen, margin=MARGIN, keeps=keeps),
         table=pd.concat([_motion(plan, scene, name) for name, plan in plans.items()]),
         alt="Both arms among the spheres at common times, with the paths of both flanges, in two "
         "panels for two readings.",
