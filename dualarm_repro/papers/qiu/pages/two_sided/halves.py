@@ -132,7 +132,7 @@ def splice(assumed: Assumed) -> Result:
             "junction_ratio": bends[0] / bends[1] if bends[1] > 0.0 else 1.0,
             "end_shift": float(np.abs(path[[0, -1]] - face.path[[0, -1]]).max()),
             "roughness_ratio": roughness(path) / roughness(face.path),
-            "clearance_change": after.smallest - before.smallest,
+            "clearance_change": after.clearance["obstacles"] - before.clearance["obstacles"],
             "beyond_limits": after.beyond_limits,
         },
         table=pd.DataFrame(curves),
