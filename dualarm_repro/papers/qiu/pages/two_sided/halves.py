@@ -51,12 +51,10 @@ def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     printed = REGISTRY.printed("qiu.claim_bi_counts")["forward"]
-    obtained = ends.counted(*_summaries(assumed), FIT.load())
-    told, witnesses = (
-        caption("claim_bi_counts", printed=printed),
-        ends.fit_witness(FIT.load(), np.inf),
-    )
-    return Result(obtained, told, witnesses=witnesses)
+    fit, (face, other) = FIT.load(), _summaries(assumed)
+    told = caption("claim_bi_counts", printed=printed)
+    witnesses = ends.fit_witness(fit, np.inf)
+    return Result(ends.counted(face, other, fit), told, witnesses=witnesses)
 
 
 @checks("qiu.claim_bi_meet", rules=ends.meeting_rules("the two halves meet"))
