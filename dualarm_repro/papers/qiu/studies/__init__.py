@@ -3,7 +3,10 @@
 from . import (
     ablation,
     dual_pairs,
+    equilibria,
     fit,
+    fit_slave,
+    free_pairs,
     improvements,
     models,
     quality,
@@ -13,7 +16,10 @@ from . import (
 __all__ = [
     "ablation",
     "dual_pairs",
+    "equilibria",
     "fit",
+    "fit_slave",
+    "free_pairs",
     "improvements",
     "models",
     "quality",

@@ -25,6 +25,8 @@ OPEN = (
     "weights",
     "joint_tolerance",
     "update_order",
+    "floor",
+    "limits",
 )
 
 

@@ -24,7 +24,7 @@ from ....planning.search.search_plan import SearchPlan
 from ....planning.search.variants import IMPROVED, TRADITIONAL
 from ....planning.trials.yardstick import PACKAGE, YARDSTICK
 from ....scene import Scene, densify
-from ..document import PRINTED, SEED, full_step, truth_scene
+from ..document import PRINTED, SEED, full_step
 from ..reading import SHORTEST, GoalBox, Improved, Splice
 from .drawing import OPEN, drawn
 
@@ -50,18 +50,18 @@ def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     row["drawn"] = cell["goal"] < len(goals)
     if not row["drawn"]:
         return row
-    goal, scene = goals[cell["goal"]], truth_scene([reading.arm()])
+    goal, scene = goals[cell["goal"]], reading.truth()
     for name, variant in METHODS.items():
         plan = reading.plan_to(goal, variant)
-        row |= {f"{name}_{key}": value for key, value in _judged(plan, scene, splice).items()}
+        row |= {f"{name}_{key}": value for key, value in _judged(plan, reading, splice).items()}
     return row | _sampled(scene, goal, rng)
 
 
-def _judged(plan: SearchPlan, scene: Scene, splice: Splice) -> dict[str, Any]:
+def _judged(plan: SearchPlan, reading: Improved, splice: Splice) -> dict[str, Any]:
     halves, step = plan.record.paths, full_step()
     row: dict[str, Any] = {
         "planner": plan.reached,
-        "truth": plan.reached and contact_check(scene, plan.path).free,
+        "truth": plan.reached and reading.is_free(contact_check(reading.truth(), plan.path)),
         "evaluations": len(halves) * plan.searches,
         "check": len(densify(plan.path, SAMPLING)[0]),
         "time": plan.record.wall_time,

@@ -110,11 +110,12 @@ def hull_claim(assumed: Assumed) -> Result:
     judged = JUDGED_BY[assumed["success_rule"]]
     table = PAIRS.load()
     keys = [f"{p}_{ratio:g}_{judged}" for p in PAIR_POINTS for ratio in PAIR_RATIOS]
-    cells = table.melt(id_vars="pair", value_vars=keys, var_name="reading", value_name="planned")
+    cells = table.melt(["pair", "drawn"], keys, var_name="reading", value_name="planned")
     planned, solved = cells["planned"].astype(bool), _solved("improved", judged)
     apart = solved["hull"] != solved["capsules"]
     obtained = {
         "effective": {"count": int(planned.sum()), "of": len(cells)},
+        "effective_by_goals": planned.groupby(cells["drawn"]).mean().to_dict(),
         "cured": {"count": int(solved["hull"][apart].sum()), "of": int(apart.sum())},
         "operations_ratio": hull_cost / capsule_cost,
         "solved": {model: int(found.sum()) for model, found in solved.items()},
@@ -131,7 +132,7 @@ def hull_claim(assumed: Assumed) -> Result:
         measured=query_times(arm, track, (0.2, 0.1, 0.9), _QUERIES),
         caption=caption("claim_hull_valid", hull=hull_cost, capsules=capsule_cost, poses=_POSES),
         witnesses=cell_witnesses(
-            "qiu.claim_hull_valid", obtained, cells, planned, ("pair", "reading")
+            "qiu.claim_hull_valid", obtained, cells, planned, ("pair", "drawn", "reading")
         ),
     )
 

@@ -197,11 +197,16 @@ def scenes_figure() -> Any:
 
 
 def pairs_table() -> pd.DataFrame:
-    """Rates of master and slave on random pairs of goals [%], by control points and gain ratio."""
-    table = PAIRS.load()
-    rows = [
-        {"control points": points, "eta_0/zeta": ratio} | success_row(table, f"{points}_{ratio:g}")
-        for points in PAIR_POINTS
-        for ratio in PAIR_RATIOS
-    ]
-    return pd.DataFrame([*rows, {"control points": "RRT-Connect"} | success_row(table, YARDSTICK)])
+    """Rates of master and slave on random pairs of goals [%], uniform or near the printed ones, by
+    control points and gain ratio."""
+    rows = []
+    for drawn, table in PAIRS.load().groupby("drawn", sort=False):
+        rows += [
+            {"goals": drawn, "control points": points, "eta_0/zeta": ratio}
+            | success_row(table, f"{points}_{ratio:g}")
+            for points in PAIR_POINTS
+            for ratio in PAIR_RATIOS
+        ]
+        yardstick = {"goals": drawn, "control points": "RRT-Connect"}
+        rows.append(yardstick | success_row(table, YARDSTICK))
+    return pd.DataFrame(rows)

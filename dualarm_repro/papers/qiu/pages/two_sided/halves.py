@@ -22,12 +22,14 @@ from .....view.search_curves import splice_figure
 from .....view.style import GREEN, PURPLE
 from .....view.tip_paths import tip_path_figure
 from ... import ends
+from ...calibrated import readings
 from ...document import FACE_VALUE, PRINTED, spheres, truth_scene
 from ...reading import Improved, Splice
+from ...studies.fit import FIT
 
 checks = partial(REGISTRY.checks, page="qiu/two_sided")
 caption = captions(__file__)
-_PLAYED = "Reconstruction: both halves of the master's path, forward and backward."
+_PLAYED = "Calibrated reading: both halves of the master's path, forward and backward."
 
 
 def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
@@ -37,12 +39,13 @@ def truth(plan: SearchPlan, path: np.ndarray | None = None) -> ContactCheck:
 
 
 def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
-    """How the search came out, at face value and in the reconstruction."""
+    """How the search came out, at face value and by the calibrated reading."""
     found = []
-    for plan in Improved.of(assumed).readings().values():
+    for plan in readings(Improved.of(assumed)).values():
         check = truth(plan)
         contact = {"gap_rad": plan.gap, "free": check.free, "clearance": check.clearance}
-        found.append(ends.outcome(plan, PRINTED.meeting) | contact)
+        searches = printed_numbers("qiu.claim_bi_counts", *ends.HALVES)
+        found.append(ends.outcome(plan, PRINTED.meeting, searches) | contact)
     return found
 
 
@@ -50,7 +53,10 @@ def _summaries(assumed: Assumed) -> list[dict[str, Any]]:
 def counts(assumed: Assumed) -> Result:
     """Searches until the halves meet, in both readings."""
     printed = REGISTRY.printed("qiu.claim_bi_counts")["forward"]
-    return Result(ends.counted(*_summaries(assumed)), caption("claim_bi_counts", printed=printed))
+    fit, (face, other) = FIT.load(), _summaries(assumed)
+    told = caption("claim_bi_counts", printed=printed)
+    witnesses = ends.fit_witness(fit, np.inf)
+    return Result(ends.counted(face, other, fit), told, witnesses=witnesses)
 
 
 @checks("qiu.claim_bi_meet", rules=ends.meeting_rules("the two halves meet"))
@@ -61,6 +67,7 @@ def meeting(assumed: Assumed) -> Result:
     return Result(
         obtained=ends.met(face, other, PRINTED.meeting),
         caption=caption("claim_bi_meet", reason=face["reason"], height=height),
+        witnesses=ends.fit_witness(FIT.load()),
     )
 
 
@@ -73,7 +80,7 @@ def meeting(assumed: Assumed) -> Result:
 )
 def both_halves(assumed: Assumed) -> Result:
     """Flange paths of both halves among the spheres."""
-    plans, printed = Improved.of(assumed).readings(), PRINTED.meeting
+    plans, printed = readings(Improved.of(assumed)), PRINTED.meeting
     task = {"start": printed_numbers("qiu.claim_start", "tcp"), "goal": PRINTED.master_goal}
     face, other = plans.values()
     panels = [
@@ -84,9 +91,9 @@ def both_halves(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "apart": face.gap - assumed["joint_tolerance"],
-            "reconstruction_joined": other.reached,
+            "calibrated_joined": other.reached,
             "clearance": truth(face).clearance,
-            "clearance_reconstruction": truth(other).clearance,
+            "clearance_calibrated": truth(other).clearance,
         },
         table=face.to_frame(),
         caption=caption("fig12", face=face, other=other, printed=printed),
@@ -135,7 +142,7 @@ def splice(assumed: Assumed) -> Result:
             "junction_ratio": _ratio(path, face),
             "end_shift": float(np.abs(path[[0, -1]] - face.path[[0, -1]]).max()),
             "roughness_ratio": roughness(path) / roughness(face.path),
-            "clearance_change": after.smallest - before.smallest,
+            "clearance_change": after.clearance["obstacles"] - before.clearance["obstacles"],
             "beyond_limits": after.beyond_limits,
             "drawn": {
                 "wrist": shown.problem.goal[3:].tolist(),
@@ -168,7 +175,7 @@ def _bend(path: np.ndarray, junction: int) -> float:
 @checks("qiu.fig13", rules=ends.JOINT_RULES)
 def joint_angles(assumed: Assumed) -> Result:
     """All joint angles of the joined and smoothed path."""
-    plans, smooth = Improved.of(assumed).readings(), Splice.of(assumed).smooth
+    plans, smooth = readings(Improved.of(assumed)), Splice.of(assumed).smooth
     return ends.joints_of(
         {name: smooth(plan.path) for name, plan in plans.items()},
         plans.values(),
@@ -188,7 +195,7 @@ def joint_angles(assumed: Assumed) -> Result:
 )
 def tip_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the flange on the joined and smoothed path."""
-    plans, halves = Improved.of(assumed).readings(), PRINTED.meeting
+    plans, halves = readings(Improved.of(assumed)), PRINTED.meeting
     smooth = Splice.of(assumed).smooth
     face = plans[FACE_VALUE]
     tips = {name: end_effector(plan.placed, smooth(plan.path)) for name, plan in plans.items()}
