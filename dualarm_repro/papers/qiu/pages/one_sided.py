@@ -106,8 +106,7 @@ def _nearest_balance() -> dict[str, Any]:
     over all ratios of the gains, and how many postures were sought."""
     table = EQUILIBRIA.load()
     nearest = table.loc[table["angle_deg"].idxmin()]
-    of = ("angle_deg", "ratio", "branch", "goal_branch", "control_points", "repulsion_sources")
-    found = {key: nearest[key] for key in of}
+    found = {key: nearest[key] for key in (*table.columns[:5], "angle_deg", "ratio")}
     return found | {"sought": int(table["starts"].sum()), "cells": len(table)}
 
 

@@ -2,9 +2,9 @@
 
 Unknown are the wrist of the posture, the wrist and the radius of the goal, the place of the flange
 in the neighbourhood of the printed point, and the ratio of the gains; per branch of the posture and
-of the goal, set of control points and rule of the sources, the nearest balance of both forces is
-sought from several starts. Forces that are opposed balance at one ratio; forces that are not
-balance at none.
+of the goal, set of control points, rule of the sources and form of the attraction, the nearest
+balance of both forces is sought from several starts. Forces that are opposed balance at one ratio;
+forces that are not balance at none.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ..document import PRINTED, SEED, full_step, repelling
 from ..reading import CONTROL_POINTS, Goal, Traditional
 from .fit import combinations
 
-STARTS = 4
+STARTS = 3
 #: Columns in which round-off at the start of a descent is seen.
 _ROUGH = ("ratio", "curvature", *(f"{end}{j}" for end in ("q", "goal") for j in range(1, 7)))
 _BEND = np.deg2rad(120.0)  # of joint 5 of the arm
@@ -38,6 +38,7 @@ def _cells() -> list[dict[str, Any]]:
         goal_branch=BRANCHES,
         control_points=list(CONTROL_POINTS),
         repulsion_sources=alternatives("qiu.repulsion_sources", 0),
+        attraction_form=alternatives("qiu.attraction_form", 0),
     )
 
 
@@ -50,9 +51,7 @@ def _bounds() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    reading = Traditional.nominal(
-        **{key: cell[key] for key in ("goal_branch", "control_points", "repulsion_sources")}
-    )
+    reading = Traditional.nominal(**{key: cell[key] for key in cell if key != "branch"})
     arm, start = reading.arm(), PRINTED.start
     made = search_problem(arm, start, start, repelling(), reading.settings())
 
@@ -65,7 +64,7 @@ def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
             return None
 
     low, high = _bounds()
-    starts = qmc.scale(qmc.Sobol(len(low), rng=rng).random(4 * STARTS), low, high)
+    starts = qmc.scale(qmc.Sobol(len(low), rng=rng).random(16), low, high)
     placed = [x for x in starts if place(x) is not None][:STARTS]
     found = nearest_equilibria(made, place, placed, (low, high))
     row: dict[str, Any] = {"starts": len(found), "angle_deg": np.nan, "ratio": np.nan}
