@@ -24,7 +24,7 @@ from ..reading import Improved
 from .drawing import drawn
 
 RATIOS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0)
-STEP_RULES = ("constant", "saturating", "plain_distance", "relative")
+STEP_RULES = ("constant", "saturating", "plain_distance", "relative", "lengthened")
 COUNT = 240
 #: What a cell draws.
 DRAWN = ("gain_rule", "kappa", "delta_rho", "flip_rule", "step_floor", "weights", "control_points")
