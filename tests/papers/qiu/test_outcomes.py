@@ -84,7 +84,7 @@ def test_stored_study_is_what_the_code_gives(study):
 
 
 def test_all_studies_are_registered():
-    assert len(STUDIES) == 8
+    assert len(STUDIES) == 10
 
 
 def test_the_stored_ratio_is_the_nearest_by_its_factor():
