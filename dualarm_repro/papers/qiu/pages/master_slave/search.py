@@ -22,6 +22,7 @@ from ...calibrated import dual_readings
 from ...document import PRINTED
 from ...reading import Links, Slave
 from ...studies.fit_slave import FIT_SLAVE
+from ...studies.free_pairs import FREE
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
 caption = captions(__file__)
@@ -157,4 +158,15 @@ def no_collision(assumed: Assumed) -> Result:
             "control_points": plan.slave.control_clearance,
         },
         caption=caption("claim_no_collision", most=_SHIFTS[-1]),
+        witnesses=_free_witness(),
     )
+
+
+def _free_witness() -> list[dict[str, Any]]:
+    """The reading of the yield map that keeps the largest distance, if any is free."""
+    free = FREE.load().query("free")
+    if free.empty:
+        return []
+    index = free["smallest"].idxmax()
+    values = {str(key): value for key, value in free.loc[index].items()}
+    return [{"choice": f"yield map, cell {index}", "verdict": "holds", "values": values}]
