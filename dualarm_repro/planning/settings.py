@@ -78,6 +78,7 @@ class StepRule(StrEnum):
     SATURATING = "saturating"
     PLAIN_DISTANCE = "plain_distance"
     RELATIVE = "relative"
+    LENGTHENED = "lengthened"
 
 
 class UpdateOrder(StrEnum):

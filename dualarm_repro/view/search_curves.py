@@ -10,6 +10,7 @@ import numpy as np
 
 from .style import BLACK, ORANGE, PALETTE, WIDTH, house_style
 
+_IN_ONE_LINE = 5  # names of a legend
 _LEAST_SPAN = 0.1  # of a joint that is given a panel [deg]
 
 
@@ -17,8 +18,10 @@ def coordinate_figure(
     runs: Mapping[str, np.ndarray],
     marks: Mapping[str, np.ndarray] | None = None,
     xlabel: str = "search",
+    ends: Mapping[str, tuple[int, np.ndarray]] | None = None,
 ) -> Any:
-    """x, y and z of the flange over the samples; ``marks`` are points (3,) drawn as levels.
+    """x, y and z of the flange over the samples; ``marks`` are points (3,) drawn as levels,
+    ``ends`` a sample and a point (3,) drawn there.
 
     A dot marks the end of each curve.
     """
@@ -30,6 +33,7 @@ def coordinate_figure(
                 ax.plot(len(tcp) - 1, tcp[-1, k], "o", color=color, ms=4)
             for style, (name, point) in zip(("--", ":"), (marks or {}).items(), strict=False):
                 ax.axhline(point[k], color=BLACK, ls=style, lw=1.3, label=name)
+            _mark_ends(ax, ends or {}, k)
             ax.set(xlabel=xlabel, ylabel=f"{'xyz'[k]} of the flange [m]")
         _legend_above(figure, axes[0])
     return figure
@@ -39,8 +43,10 @@ def joint_figure(
     runs: Mapping[str, np.ndarray],
     junctions: Sequence[float] = (),
     xlabel: str = "sample of the path",
+    ends: Mapping[str, tuple[int, np.ndarray]] | None = None,
 ) -> Any:
-    """Joint angles of one or several paths (N, nq) in degrees, junctions as vertical lines.
+    """Joint angles of one or several paths (N, nq) in degrees, junctions as vertical lines,
+    ``ends`` as a sample and a posture (nq,) [rad] drawn there.
 
     A joint that hardly moves has no panel: the last title names it with how far it moves.
     """
@@ -59,6 +65,7 @@ def joint_figure(
                 ax.plot(np.rad2deg(path[:, j]), color=PALETTE[k], label=name, lw=1.6)
             for k, junction in enumerate(junctions):
                 ax.axvline(junction, color=PALETTE[k], ls=":", lw=1.3)
+            _mark_ends(ax, {n: (at, np.rad2deg(q)) for n, (at, q) in (ends or {}).items()}, int(j))
             ax.set(ylabel=f"joint {j + 1} [deg]")
         for ax in grid.flat[max(len(moving) - columns, 0) : len(moving)]:
             ax.set_xlabel(xlabel)
@@ -104,6 +111,14 @@ def splice_figure(
     return figure
 
 
+def _mark_ends(ax: Any, ends: Mapping[str, tuple[int, np.ndarray]], k: int) -> None:
+    """Entry k of the points at the ends of a path, in front of the curves."""
+    for marker, (name, (sample, point)) in zip(("o", "*", "X"), ends.items(), strict=False):
+        fill, size = ("white", 7) if marker == "o" else (BLACK, 9)
+        look = {"color": BLACK, "mfc": fill, "ms": size, "ls": "none", "zorder": 5}
+        ax.plot(sample, point[k], marker, label=name, **look)
+
+
 def _tiny(span: float) -> str:
     """A small angle; rounding is none."""
     return f"{span:.2g} deg" if span > 1e-9 else "at rest"
@@ -115,4 +130,4 @@ def _legend_above(figure: Any, ax: Any, dotted: str | None = None) -> None:
     if dotted:
         handles.append(plt.Line2D([], [], color="0.3", ls=":", lw=1.3))
         labels.append(dotted)
-    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels))
+    figure.legend(handles, labels, loc="outside upper left", ncols=min(len(labels), _IN_ONE_LINE))

@@ -48,6 +48,8 @@ METHODS = [
     ("qiu", "time map", "time_map"),
     ("qiu", "contact of whole links", "contact_check"),
     ("qiu", "both methods on many goals", "campaign"),
+    ("qiu", "lines followed by inverse kinematics", "follow_line"),
+    ("qiu", "creases around capsules and hull", "to_capsules"),
 ]
 #: Chapters that this file runs; those of the programs and the welds have a file of their own.
 CHAPTERS = [*chapters_of("xue"), *chapters_of("qiu")]

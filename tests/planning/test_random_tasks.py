@@ -18,7 +18,7 @@ BENT = np.array([1.99, 0.52, -0.87, 0.0, 0.0, 0.0])
 
 def _task(seed, count=3):
     rng = np.random.default_rng(seed)
-    return blocked_task(placed_arm(), SHOULDER, count, 0.03, rng, TURNING)
+    return blocked_task(placed_arm(), SHOULDER, count, 0.03, rng, 0.0, TURNING)
 
 
 def test_tasks_are_blocked_and_their_ends_are_clear():

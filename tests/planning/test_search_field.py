@@ -8,7 +8,6 @@ from dualarm_repro.differences import central_differences
 from dualarm_repro.planning.field.disc_field import DiscField
 from dualarm_repro.planning.search.search_field import (
     balance_distance,
-    balance_gain,
     repulsive_potential_at,
     repulsive_torque_at,
 )
@@ -25,14 +24,6 @@ def test_torque_is_the_negative_slope_of_the_potential(sources):
     slope = central_differences(lambda q: repulsive_potential_at(made, q), Q)
     assert np.linalg.norm(slope) > 1.0
     assert repulsive_torque_at(made, Q) == pytest.approx(-slope, rel=1e-5, abs=1e-4)
-
-
-def test_with_the_gain_of_balance_repulsion_equals_the_largest_attraction():
-    ratio = balance_gain(placed_arm(), Q, obstacles(), 0.4, 0.4)
-    step, repulsion = {"weights": None}, {"gain": 1000.0 * ratio}
-    chosen = settings(control_points=(7,), step=step, repulsion=repulsion)
-    made = search_problem(placed_arm(), START, GOAL, obstacles(), chosen)
-    assert np.linalg.norm(repulsive_torque_at(made, Q)) == pytest.approx(0.4 * 1000.0)
 
 
 def test_at_the_distance_of_balance_the_torque_is_the_pull():

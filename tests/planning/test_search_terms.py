@@ -119,6 +119,11 @@ def test_flip_rules():
     assert is_flip(code(FlipRule.BELOW_MINUS_HALF), -0.6)
 
 
+def values_without_floor(rho, weights):
+    """The saturating step without its floor."""
+    return step_length(code(StepRule.SATURATING), 0.05, 0.0, 2.0, weights, rho, 0.4)
+
+
 @given(rho=st.lists(st.floats(0.0, 5.0), min_size=3, max_size=3).map(np.array))
 def test_step_length(rho):
     weights = np.array([1.0, 2.0, 3.0]) / 6.0
@@ -126,6 +131,8 @@ def test_step_length(rho):
     assert values[StepRule.CONSTANT] == 0.05
     assert all(0.2 * 0.05 <= value <= 2.0 * 0.05 for value in values.values())
     assert values[StepRule.SATURATING] <= 0.05 * (1 + 1e-12)
+    lengthened = min(0.05 + values_without_floor(rho, weights), 0.1)
+    assert values[StepRule.LENGTHENED] == pytest.approx(lengthened)
     for rule in StepRule:
         further = step_length(code(rule), 0.05, 0.2, 2.0, weights, rho + 0.1, 0.4)
         assert further >= values[rule] - 1e-15

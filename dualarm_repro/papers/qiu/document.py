@@ -25,13 +25,12 @@ from ...tracking import memo
 ROBOT = "irb120"
 ARMS = ("master", "slave")
 SEED = 20200527
-FLOOR = 0.0  # the table the arms stand on, for checks of contact
-REPELLING_FLOOR = -0.25  # of the assumption `floor`
+FLOOR = 0.0  # height of the table under the bases in the reading of `floor` that has one [m]
 TOOL = 0.03  # of the reading `longer_tool` [m]
 MOVED_BASE = 0.30  # x of the master base of the reading `moved_base` [m]
 MARGIN = 0.03  # clearance of the ends of random tasks [m]
 #: Names of the two readings that are drawn beside each other.
-FACE_VALUE, RECONSTRUCTION = "face value", "reconstruction"
+FACE_VALUE, CALIBRATED = "face value", "calibrated"
 
 
 class _Printed:
@@ -114,29 +113,36 @@ def spheres() -> dict[str, Sphere]:
 
 @memo()
 def repelling(floor: bool = False, with_spheres: bool = True) -> Obstacles:
-    """What repels the arms: the spheres and, if assumed, the floor."""
+    """What repels the arms: the spheres and, if assumed, the table."""
     shapes: dict[str, Sphere | HalfSpace] = dict(spheres()) if with_spheres else {}
     if floor:
-        shapes["floor_plane"] = HalfSpace((0.0, 0.0, 1.0), REPELLING_FLOOR)
+        shapes["floor_plane"] = HalfSpace((0.0, 0.0, 1.0), FLOOR)
     return obstacles_of(Scene([placed("master")], shapes))
 
 
-def truth_scene(arms: Sequence[PlacedArm]) -> Scene:
-    """The scene in which contact is judged: whole links, both spheres, the table."""
+def truth_scene(arms: Sequence[PlacedArm], floor: bool = False) -> Scene:
+    """The scene in which contact is judged: whole links, both spheres and, if assumed, the
+    table."""
+    if not floor:
+        return Scene(list(arms), spheres())
     return Scene(list(arms), spheres(), floor=FLOOR, exempt=[_turning(arm) for arm in arms])
 
 
 @memo(8)
-def dual_scene(goal: str = "pulled_back", radii: tuple[float, ...] | None = None) -> Scene:
-    """Both arms, spheres and table; the master as its goal is read, links of other radii."""
-    return truth_scene([master_arm(goal, radii), placed("slave", arm=arm_in_use(0.0, radii))])
+def dual_scene(
+    goal: str = "pulled_back", radii: tuple[float, ...] | None = None, floor: bool = False
+) -> Scene:
+    """Both arms, spheres and, if assumed, the table; the master as its goal is read, links of other
+    radii."""
+    arms = [master_arm(goal, radii), placed("slave", arm=arm_in_use(0.0, radii))]
+    return truth_scene(arms, floor)
 
 
 def random_task(count: int, rng: np.random.Generator) -> tuple[Scene, np.ndarray, np.ndarray]:
     """Scene of the master with ``count`` spheres, a start and a goal (6,): both clear, the straight
     line blocked."""
     arm = placed("master")
-    return blocked_task(arm, shoulder(arm), count, MARGIN, rng, [_turning(arm)])
+    return blocked_task(arm, shoulder(arm), count, MARGIN, rng)
 
 
 def _turning(arm: PlacedArm) -> tuple[str, str]:

@@ -20,6 +20,7 @@ from .document import PRINTED, SEED, goal_to_surface, placed, reach, repelling, 
 from .pages.geometry.task import gap_by_turn
 from .pages.two_sided.halves import truth
 from .reading import CONTROL_POINTS, Hull, Improved, Slave, Splice, Traditional
+from .studies.fit import calibrated_master
 
 _DIRECTIONS = 400
 
@@ -201,7 +202,7 @@ def collision_scope() -> Proof:
 @REGISTRY.proves("qiu.smoothing_clearance")
 def smoothing_clearance() -> Proof:
     """Clearance before and after the spline, for growing mu."""
-    plan, splice = Improved.nominal().reconstructed().plan(), Splice.nominal()
+    plan, splice = calibrated_master(Improved).plan(), Splice.nominal()
     before = truth(plan).clearance
     changes = {}
     for mu in (0.1, 1.0, 10.0, 100.0, 1e4):
@@ -209,7 +210,7 @@ def smoothing_clearance() -> Proof:
         changes[f"{mu:g}"] = {name: after[name] - before[name] for name in before}
     worst = min(change for row in changes.values() for change in row.values())
     return Proof(
-        "smoothing brings the reconstructed path closer to an obstacle, the more so the larger mu",
+        "smoothing brings the calibrated path closer to an obstacle, the more so the larger mu",
         worst < -1e-4,
         {"change_of_clearance_by_mu": changes, "worst": worst},
     )

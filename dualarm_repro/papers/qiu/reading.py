@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from ...errors import InputError
 from ...ledger.assumptions import Chosen, FromAssumptions
+from ...planning.checks.contact_check import ContactCheck
 from ...planning.field.control_points import end_effector
 from ...planning.field.hull_obstacle import JointCircles
+from ...planning.field.obstacles import Obstacles
 from ...planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from ...planning.search.bidirectional_settings import BidirectionalSettings
 from ...planning.search.dual_search import DualSearch, search_around
-from ...planning.search.search_field import balance_gain
 from ...planning.search.search_plan import SearchPlan
 from ...planning.search.splice import smoothed
 from ...planning.search.variants import IMPROVED, TRADITIONAL, Variant
@@ -24,9 +25,7 @@ from ...planning.tasks.tip_goal import nearest_posture
 from ...scene import PlacedArm, Scene
 from ...tracking import memo
 from .document import (
-    FACE_VALUE,
     PRINTED,
-    RECONSTRUCTION,
     dual_scene,
     master_arm,
     placed,
@@ -154,6 +153,8 @@ class Search(Goal):
     joint_tolerance: float
     stuck_rule: float
     search_cap: float
+    floor: str
+    limits: str
 
     #: The improvements that it uses unless another variant is asked for.
     variant: ClassVar[Variant] = TRADITIONAL
@@ -162,9 +163,13 @@ class Search(Goal):
         if self.step_rule != "unit_vector":
             raise InputError("qiu", "step_rule", self.step_rule, "unit_vector")
 
-    def settings(self, variant: Variant | None = None) -> BidirectionalSettings:
-        """Settings of a variant whose assumptions this reading has."""
-        return BidirectionalSettings(**self.parts(variant or self.variant))
+    def settings(
+        self, variant: Variant | None = None, goal: np.ndarray | None = None
+    ) -> BidirectionalSettings:
+        """Settings of a variant whose assumptions this reading has; joint limits that it keeps to
+        are no use on the way to a ``goal`` (6,) [rad] beyond them."""
+        kept = self.limits == "kept" and (goal is None or self.arm().arm.within_limits(goal))
+        return BidirectionalSettings(**self.parts(variant or self.variant), enforce_limits=kept)
 
     def parts(self, variant: Variant) -> dict[str, Any]:
         """Those settings by their names."""
@@ -194,17 +199,25 @@ class Search(Goal):
 
     def plan_to(self, goal: np.ndarray, variant: Variant | None = None) -> SearchPlan:
         """The master from its start to another goal (6,) [rad]."""
-        chosen = self.settings(variant)
-        return plan_bidirectional_compiled(self.arm(), PRINTED.start, goal, repelling(), chosen)
+        chosen, around = self.settings(variant, goal), self.obstacles()
+        return plan_bidirectional_compiled(self.arm(), PRINTED.start, goal, around, chosen)
 
-    def readings(self) -> dict[str, SearchPlan]:
-        """The same at face value and in the reconstruction."""
-        return {FACE_VALUE: self.plan(), RECONSTRUCTION: self.reconstructed().plan()}
+    def obstacles(self, with_spheres: bool = True) -> Obstacles:
+        """What repels an arm: the spheres and, if assumed, the table."""
+        return repelling(self.has_floor, with_spheres)
 
-    def reconstructed(self) -> Self:
-        """The second reading: the gain ratio of the scale that the printed trap gives, and control
-        points that carry the thickness of their links; everything else as assumed."""
-        return replace(self, gain_ratio=balance_ratio(), control_points="four_with_link_radii")
+    @property
+    def has_floor(self) -> bool:
+        """Whether the arms stand on a table that searches and checks of contact know."""
+        return self.floor == "at_bases"
+
+    def truth(self) -> Scene:
+        """The scene in which contact of the master is judged."""
+        return truth_scene([self.arm()], self.has_floor)
+
+    def is_free(self, check: ContactCheck) -> bool:
+        """Whether a path touches nothing and keeps to the limits, as far as they count."""
+        return check.smallest > 0.0 and (self.limits == "ignored" or check.beyond_limits <= 0.0)
 
 
 @memo(512)
@@ -317,13 +330,13 @@ class Links(Reading):
 class SlaveGoal(Reading):
     """The goal of the slave."""
 
-    goal_wrist: tuple[float, ...]
     slave_branch: str
+    slave_wrist: tuple[float, ...]
 
     def slave_postures(self) -> dict[str, np.ndarray]:
         """The postures (6,) [rad] that take the slave to its printed goal, by branch."""
         ends = placed("slave"), PRINTED.slave_goal
-        return {b: within_reach(branch_posture(*ends, b, self.goal_wrist)) for b in BRANCHES}
+        return {b: within_reach(branch_posture(*ends, b, self.slave_wrist)) for b in BRANCHES}
 
     def slave_posture(self) -> np.ndarray:
         """The one on the assumed branch (6,) [rad]."""
@@ -336,15 +349,16 @@ class Slave(Improved, Splice, Hull, SlaveGoal):
 
     schedule_steps: float
     slave_obstacles: str
-    floor: str
 
     def dual_plan(self) -> DualSearch:
         """Both arms from their starts to their goals."""
         return _dual_plan(self)
 
-    def dual_readings(self) -> dict[str, DualSearch]:
-        """The same at face value and in the reconstruction."""
-        return {FACE_VALUE: self.dual_plan(), RECONSTRUCTION: self.reconstructed().dual_plan()}
+    def smooth_inside(self, path: np.ndarray) -> np.ndarray:
+        """A path (N, 6) [rad] after the spline, cut at the limits that it has kept to before."""
+        arm, made = placed("slave").arm, self.smooth(path)
+        kept = self.limits == "kept" and bool(arm.within_limits(path).all())  # type: ignore[union-attr]
+        return np.clip(made, *arm.limits()) if kept else made
 
     def around(self, master: SearchPlan, goal: np.ndarray) -> DualSearch:
         """The slave from its start to a goal (6,) [rad] around the master on its path."""
@@ -352,30 +366,18 @@ class Slave(Improved, Splice, Hull, SlaveGoal):
             master,
             placed("slave"),
             (PRINTED.start, goal),
-            repelling(self.floor == "half_space", self.slave_obstacles != "master"),
-            self.settings(),
+            self.obstacles(self.slave_obstacles != "master"),
+            self.settings(goal=goal),
             self.circles(),
             round(self.schedule_steps),
-            self.smooth,
+            self.smooth_inside,
         )
 
     def scene(self, radii: tuple[float, ...] | None = None) -> Scene:
         """Both arms among the spheres, links of other ``radii`` [m]."""
-        return dual_scene(self.master_goal, radii)
+        return dual_scene(self.master_goal, radii, self.has_floor)
 
 
 @memo(512)
 def _dual_plan(reading: Slave) -> DualSearch:
     return reading.around(reading.plan(), reading.slave_posture())
-
-
-@memo()
-def balance_ratio() -> float:
-    """eta_0/zeta at which repulsion of the flange at the printed trap is as large as the largest
-    attraction.
-
-    Wrist angles are zero. It is a scale taken from one printed point, and no balance of forces.
-    """
-    arm = placed("master")
-    q = within_reach(branch_posture(arm, PRINTED.trap, "front_shallow"))
-    return balance_gain(arm, q, repelling(), PRINTED.threshold, PRINTED.influence)

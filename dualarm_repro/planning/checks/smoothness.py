@@ -30,9 +30,3 @@ def bending_of(
     path = smooth(moving_part(plan))
     points = {"joints": path, "tip": plan.placed.arm.positions(path)}
     return {space: bending(points[space], step) for space, step in spacing.items()}
-
-
-def least_singular_value(plan: SearchPlan, path: np.ndarray) -> float:
-    """Smallest singular value of the position Jacobian on a path (N, nq) of the arm [m/rad]."""
-    jacobian = plan.placed.arm.jacobian(path)[:, :3]
-    return float(np.linalg.svd(jacobian, compute_uv=False)[:, -1].min())

@@ -4,7 +4,8 @@ alpha = alpha_0 s with s between ``floor`` and ``cap``, sum tau_i = 1:
 
 * saturating: s = sum tau_i min(1, rho_i/rho_0);
 * plain_distance: s = sum tau_i rho_i, which depends on the unit of length;
-* relative: s = 1 + sum tau_i (rho_i - rho_0)/rho_0, above 1 far from obstacles.
+* relative: s = 1 + sum tau_i (rho_i - rho_0)/rho_0, above 1 far from obstacles;
+* lengthened: s = 1 + sum tau_i min(1, rho_i/rho_0), never below 1 and 2 far from obstacles.
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ from ...kernel import kernel
 from ...settings import code
 from ..settings import StepRule
 
-_CONSTANT, _SATURATING, _PLAIN = map(
-    code, (StepRule.CONSTANT, StepRule.SATURATING, StepRule.PLAIN_DISTANCE)
+_CONSTANT, _SATURATING, _PLAIN, _LENGTHENED = map(
+    code,
+    (StepRule.CONSTANT, StepRule.SATURATING, StepRule.PLAIN_DISTANCE, StepRule.LENGTHENED),
 )
 
 
@@ -23,9 +25,9 @@ def step_length(rule, length, floor, cap, weights, rho, influence):
     """alpha [rad] for distances ``rho`` (K,) [m], infinite without obstacles."""
     if rule == _CONSTANT:
         return length
-    share = 0.0
+    share = 1.0 if rule == _LENGTHENED else 0.0
     for k in range(len(rho)):
-        if rule == _SATURATING:
+        if rule == _SATURATING or rule == _LENGTHENED:
             share += weights[k] * min(1.0, rho[k] / influence)
         elif rule == _PLAIN:
             share += weights[k] * rho[k]

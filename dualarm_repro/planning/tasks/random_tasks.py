@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,16 +20,19 @@ def blocked_task(
     count: int,
     margin: float,
     rng: np.random.Generator,
+    floor: float | None = None,
     exempt: Collection[tuple[str, str]] = (),
 ) -> tuple[Scene, np.ndarray, np.ndarray]:
-    """A scene of one arm, ``count`` spheres and a floor at z = 0, a start and a goal (nq,) [rad].
+    """A scene of one arm and ``count`` spheres, a start and a goal (nq,) [rad].
 
     Both ends are clear by ``margin`` [m]. Radii of the spheres are 0.06 to 0.14 m, their centres
-    0.25 to 0.65 m from the ``shoulder`` (3,) and above the floor; joints stay within half a turn.
+    0.25 to 0.65 m from the ``shoulder`` (3,) and above z = 0.15 m; joints stay within half a turn.
     Drawn until a task fits; 40 pairs of ends are tried in one scene.
 
     Parameters
     ----------
+    floor
+        Height of a floor [m], if there is one.
     exempt
         Pairs of bodies that are not watched, see :class:`.Scene`.
     """
@@ -42,7 +45,7 @@ def blocked_task(
             balls[f"sphere_{k}"] = Sphere(
                 [*centre[:2], max(centre[2], _LOWEST)], rng.uniform(*_RADII)
             )
-        scene = Scene([arm], balls, floor=0.0, exempt=exempt)
+        scene = Scene([arm], balls, floor=floor, exempt=exempt)
         for _ in range(_TRIES):
             ends = rng.uniform(*_turns(scene), (2, arm.arm.nq))
             if (distances(scene, ends).min(axis=1) > margin).all():
@@ -51,12 +54,25 @@ def blocked_task(
 
 
 def blocked_goal(
-    scene: Scene, start: ArrayLike, margin: float, rng: np.random.Generator
+    scene: Scene,
+    start: ArrayLike,
+    margin: float,
+    rng: np.random.Generator,
+    draw: Callable[[np.random.Generator], np.ndarray | None] | None = None,
 ) -> np.ndarray:
     """Configuration of all arms of a scene (nq,), clear by ``margin`` [m], to which the straight
-    line from ``start`` is in contact; joints stay within half a turn. Drawn until one fits."""
+    line from ``start`` is in contact. Drawn until one fits.
+
+    Parameters
+    ----------
+    draw
+        Gives a configuration, or None for a draw that is none; by default uniform over the joints,
+        which stay within half a turn.
+    """
     while True:
-        goal = rng.uniform(*_turns(scene))
+        goal = rng.uniform(*_turns(scene)) if draw is None else draw(rng)
+        if goal is None:
+            continue
         clear = distances(scene, goal).min() > margin
         if clear and contact_check(scene, np.array([start, goal])).smallest < 0.0:
             return goal

@@ -24,6 +24,9 @@ DIGITS = {
     "qiu.claim_tau_order": ("qiu.claim_tau_order", ("order",), "tau_1 > tau_2 > tau_3 > 0"),
     "qiu.claim_mu_nonneg": ("qiu.claim_mu_nonneg", ("mu",), ">= 1"),
     "qiu.tab02": ("qiu.tab02", ("goals",), "16"),
+    "qiu.claim_same_posture": ("qiu.claim_slave_task", ("start", 1), "0.381"),
+    "qiu.claim_symmetric": ("qiu.claim_bases", ("slave", 0), "0.350"),
+    "qiu.claim_overlap": ("qiu.claim_bases", ("slave", 0), "-1.350"),
 }
 #: Inputs that the runs are fed with, and another print of them.
 INPUTS = {

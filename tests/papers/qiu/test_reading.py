@@ -15,11 +15,12 @@ from dualarm_repro.papers.qiu.reading import (
     GoalBox,
     Improved,
     Links,
+    Slave,
     SlaveGoal,
     Traditional,
     VariableGain,
-    balance_ratio,
 )
+from dualarm_repro.planning.checks.contact_check import ContactCheck
 from dualarm_repro.planning.field.control_points import end_effector
 from dualarm_repro.planning.search.variants import VARIANTS
 from dualarm_repro.planning.tasks.elbow_branches import branch_posture
@@ -70,7 +71,7 @@ def test_goals_are_seeded_and_keep_their_distance():
     assert tips == pytest.approx(one.points, abs=1e-9)
 
 
-def test_variants_and_reconstruction():
+def test_variants():
     reading = Improved.nominal()
     names = [variant.name for variant in VARIANTS]
     assert sorted(names) == sorted({"traditional", "V", "A", "B", "VA", "VB", "AB", "VAB"})
@@ -79,10 +80,38 @@ def test_variants_and_reconstruction():
         assert chosen.two_sided == ("B" in variant.name)
         assert (chosen.variable_gain.rule == "constant") == ("V" not in variant.name)
         assert (chosen.step.rule == "constant") == ("A" not in variant.name)
-    changed = reading.reconstructed()
-    assert 1e-4 < changed.gain_ratio == balance_ratio() < 1e-3
-    assert changed.settings().radii == pytest.approx(Links.nominal().link_radii[2:])
     assert replace(reading, gain_ratio=1e-3).plan().searches != reading.plan().searches
+
+
+def test_a_table_repels_the_search_and_counts_as_contact():
+    without, told = Improved.nominal(), Improved.nominal(floor="at_bases")
+    assert (without.truth().floor, told.truth().floor) == (None, 0.0)
+    assert len(told.obstacles().planes) == len(without.obstacles().planes) + 1
+    assert told.plan().tcp[:, 2].min() > without.plan().tcp[:, 2].min()
+
+
+def test_limits_are_kept_on_the_way_to_a_goal_within_them():
+    arm = placed("slave").arm
+    for limits, kept in (("kept", True), ("ignored", False)):
+        slave = Slave.nominal(limits=limits)
+        inside, beyond = slave.slave_posture(), slave.slave_postures()["front_deep"]
+        assert slave.settings(goal=inside).enforce_limits is kept
+        assert not slave.settings(goal=beyond).enforce_limits
+    plan = Slave.nominal().dual_plan()
+    assert arm.within_limits(plan.slave_path).all()
+
+
+def test_limits_decide_whether_a_plan_counts_only_if_they_are_kept():
+    check = ContactCheck({"obstacles": 0.01}, beyond_limits=0.1)
+    assert not Improved.nominal().is_free(check)
+    assert Improved.nominal(limits="ignored").is_free(check)
+    assert not Improved.nominal(limits="ignored").is_free(ContactCheck({"self": -0.01}, 0.0))
+
+
+def test_the_wrists_of_both_arms_are_chosen_by_themselves():
+    bent = Slave.nominal(slave_wrist=(0.0, 0.8, 0.0))
+    assert bent.slave_posture()[4] == 0.8
+    assert bent.posture()[4] == 0.0
 
 
 def test_every_reading_has_its_variant():

@@ -10,6 +10,7 @@ import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
 from ....ledger.captions import captions
+from ....ledger.printed_values import printed_numbers
 from ....ledger.witnesses import cell_witnesses
 from ....planning.checks.path_measures import WINDOW, chatter, until_rest
 from ....planning.field.control_points import end_effector
@@ -20,9 +21,11 @@ from ....view.scene3d import Scene3D
 from ....view.search_curves import coordinate_figure
 from ....view.style import BLACK, GREEN
 from ....view.tip_paths import tip_path_figure
-from ..document import FACE_VALUE, PRINTED, RECONSTRUCTION, full_step, spheres
+from ..calibrated import readings
+from ..document import CALIBRATED, FACE_VALUE, PRINTED, full_step, spheres
 from ..ends import NO_CURVES
-from ..reading import Search, Traditional, VariableGain, balance_ratio
+from ..reading import Search, Traditional, VariableGain
+from ..studies.equilibria import EQUILIBRIA
 from ..studies.improvements import IMPROVEMENTS, nearest
 
 checks = partial(REGISTRY.checks, page="qiu/one_sided")
@@ -31,8 +34,8 @@ _CHATTERS = Bounded("chatter", "chatter of the height, as a share of a full zigz
 
 
 def _both(assumed: Assumed) -> tuple[SearchPlan, SearchPlan]:
-    """The traditional search at face value and in the reconstruction."""
-    face, other = Traditional.of(assumed).readings().values()
+    """The traditional search at face value and by the calibrated reading."""
+    face, other = readings(Traditional.of(assumed)).values()
     return face, other
 
 
@@ -59,6 +62,12 @@ def _chatter(plan: SearchPlan, measure: str) -> float:
     "qiu.claim_trad_stuck",
     rules=[
         Is("trapped", "the one-way search is trapped", value=True),
+        Bounded(
+            "balance.angle_deg",
+            "angle by which both forces miss a balance around the printed trap, in the nearest "
+            "posture at any ratio of the gains [deg]",
+            high="balanced",
+        ),
         Rounds(
             "searches",
             "searches until it rests",
@@ -77,7 +86,7 @@ def _chatter(plan: SearchPlan, measure: str) -> float:
     ],
 )
 def trapped(assumed: Assumed) -> Result:
-    """Where and why the one-way search ends, at face value and in the reconstruction."""
+    """Where and why the one-way search ends, at face value and by the calibrated reading."""
     face, other = map(_outcome, _both(assumed))
     return Result(
         obtained={
@@ -85,11 +94,20 @@ def trapped(assumed: Assumed) -> Result:
             "searches": face["searches_until_rest"],
             "tcp": face["tcp"],
             "face_value": face,
-            "reconstruction": other,
-            "ratio_of_reconstruction": balance_ratio(),
+            "calibrated": other,
+            "balance": _nearest_balance(),
         },
         caption=caption("claim_trad_stuck"),
     )
+
+
+def _nearest_balance() -> dict[str, Any]:
+    """The posture around the printed trap in which attraction and repulsion are nearest to opposed,
+    over all ratios of the gains, and how many postures were sought."""
+    table = EQUILIBRIA.load()
+    nearest = table.loc[table["angle_deg"].idxmin()]
+    found = {key: nearest[key] for key in (*table.columns[:5], "angle_deg", "ratio")}
+    return found | {"sought": int(table["starts"].sum()), "cells": len(table)}
 
 
 @checks(
@@ -109,7 +127,7 @@ def oscillates(assumed: Assumed) -> Result:
             "beyond_range": float(face.record.clearances[0][-WINDOW:].min()) - PRINTED.influence,
             "peak_to_peak": float(np.ptp(face.tcp[-WINDOW:, 2])),
             "flips": face.record.flips[0],
-            "reconstruction": _chatter(other, measure),
+            "calibrated": _chatter(other, measure),
         },
         caption=caption("claim_trad_oscillates", window=WINDOW, measure=measure),
     )
@@ -162,6 +180,7 @@ def lambda_effect(assumed: Assumed) -> Result:
         Bounded(
             "chatter", "chatter with constant gain, as a share of a full zigzag", low="chatters"
         ),
+        Bounded("reduction", "chatter with variable over that with constant gain", high="clearly"),
         NO_CURVES,
     ],
 )
@@ -176,6 +195,7 @@ def height_with_both_gains(assumed: Assumed) -> Result:
         obtained={
             "chatter": levels["constant"],
             "chatter_variable": levels["variable"],
+            "reduction": levels["variable"] / levels["constant"] if levels["constant"] else None,
             "flips": [plan.record.flips[0] for plan in plans.values()],
             "searches": [plan.searches for plan in plans.values()],
             "clearance": [plan.control_clearance for plan in plans.values()],
@@ -198,11 +218,22 @@ def height_with_both_gains(assumed: Assumed) -> Result:
 )
 def path_among_spheres(assumed: Assumed) -> Result:
     """Flange path and postures of the one-way search."""
-    plans, trap = Traditional.of(assumed).readings(), PRINTED.trap
+    plans, trap = readings(Traditional.of(assumed)), PRINTED.trap
+    start = printed_numbers("qiu.claim_start", "tcp")
     face, other = plans.values()
     goals = {name: end_effector(plan.placed, plan.problem.goal) for name, plan in plans.items()}
     panels = [
-        search_panel(name, plan, {"flange": plan.tcp}, {"goal": goals[name], "printed trap": trap})
+        search_panel(
+            name,
+            plan,
+            {"flange": plan.tcp},
+            {
+                "start": start,
+                "printed goal": PRINTED.master_goal,
+                "printed trap": trap,
+                "goal planned to": goals[name],
+            },
+        )
         for name, plan in plans.items()
     ]
     away = np.linalg.norm(face.tcp[:, None] - PRINTED.centres, axis=2).min()
@@ -212,7 +243,7 @@ def path_among_spheres(assumed: Assumed) -> Result:
             "short_of_goal": face.gap - assumed["joint_tolerance"],
             "end": face.ends[0].tolist(),
             "flange_clearance": float(away - PRINTED.radius),
-            "reconstruction_reached": other.reached,
+            "calibrated_reached": other.reached,
         },
         table=face.to_frame(),
         caption=caption("fig10", to_trap=to_trap, reason=other.reason),
@@ -235,6 +266,7 @@ def _scene(plan: SearchPlan, goal: np.ndarray) -> Scene3D:
 def coordinates(assumed: Assumed) -> Result:
     """x, y and z of the flange over the searches of the one-way run."""
     face, other = _both(assumed)
+    goal = end_effector(face.placed, face.problem.goal)
     return Result(
         obtained={
             "chatter": _chatter(face, assumed["oscillation_measure"]),
@@ -246,6 +278,12 @@ def coordinates(assumed: Assumed) -> Result:
         alt="Coordinates of the flange over the searches for two readings, with the printed trap "
         "as dashed levels.",
         figure=lambda: coordinate_figure(
-            {FACE_VALUE: face.tcp, RECONSTRUCTION: other.tcp}, {"printed trap": PRINTED.trap}
+            {FACE_VALUE: face.tcp, CALIBRATED: other.tcp},
+            {"printed trap": PRINTED.trap},
+            ends={
+                "printed start": (0, printed_numbers("qiu.claim_start", "tcp")),
+                "printed goal": (len(face.tcp) - 1, PRINTED.master_goal),
+                "goal planned to": (len(face.tcp) - 1, goal),
+            },
         ),
     )

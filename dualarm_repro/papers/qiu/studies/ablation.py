@@ -11,7 +11,7 @@ import numpy as np
 from ....ledger import REGISTRY, Study
 from ....planning.search.variants import VARIANTS
 from ....planning.trials.campaign import campaign
-from ..document import SEED, truth_scene
+from ..document import SEED
 from ..reading import GoalBox, Improved
 
 RATIOS = (1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 1.0)
@@ -34,7 +34,7 @@ def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
         goal_branch=cell["branch"],
         control_points=cell["control_points"],
     )
-    scene = truth_scene([reading.arm()])
+    scene = reading.truth()
     goals = GoalBox.nominal(goal_branch=cell["branch"]).draw(cell["goal_seed"])
     row: dict[str, Any] = {"goals": len(goals.q), "rejected": sum(goals.rejected.values())}
     for variant in VARIANTS:

@@ -21,9 +21,10 @@ from ....planning.search.search_plan import SearchPlan
 from ....planning.search.variants import Variant
 from ..document import SEED, full_step, random_task
 from ..reading import Improved
+from .drawing import drawn
 
 RATIOS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0)
-STEP_RULES = ("constant", "saturating", "plain_distance", "relative")
+STEP_RULES = ("constant", "saturating", "plain_distance", "relative", "lengthened")
 COUNT = 240
 #: What a cell draws.
 DRAWN = ("gain_rule", "kappa", "delta_rho", "flip_rule", "step_floor", "weights", "control_points")
@@ -40,16 +41,15 @@ def _cells() -> list[dict[str, Any]]:
 
 def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     scene, start, goal = random_task(cell["spheres"], rng)
-    obstacles = obstacles_of(scene, leave_out=("floor",))
-    fields = ("value", "range", "scale", "choices")
-    drawn = {key: REGISTRY.declared(f"qiu.{key}", *fields).at(rng.random()) for key in DRAWN}
-    reading = Improved.nominal(**drawn, gain_ratio=cell["gain_ratio"])
+    obstacles = obstacles_of(scene)
+    values = drawn(DRAWN, rng)
+    reading = Improved.nominal(**values, gain_ratio=cell["gain_ratio"])
 
     def run(reading: Improved, variant: Variant | None = None) -> SearchPlan:
         chosen = reading.settings(variant)
         return plan_bidirectional_compiled(scene.arms[0], start, goal, obstacles, chosen)
 
-    row: dict[str, Any] = {"gain_rule": drawn["gain_rule"], "kappa": drawn["kappa"]}
+    row: dict[str, Any] = {"gain_rule": values["gain_rule"], "kappa": values["kappa"]}
     for name, variable in (("constant", False), ("variable", True)):
         height = run(reading, Variant(variable, False, False)).tcp[:, 2]
         row |= {f"{m}_{name}": chatter(height, m, full_step()) for m in MEASURES}

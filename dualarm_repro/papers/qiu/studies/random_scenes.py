@@ -26,10 +26,10 @@ def _cells() -> list[dict[str, Any]]:
 
 
 def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    """Every variant at three gain ratios, and RRT-Connect, on one random task; the search knows
-    the spheres only, as in the document."""
+    """Every variant at three gain ratios, and RRT-Connect, on one random task; all of
+    them know the same spheres and joint limits."""
     scene, start, goal = random_task(cell["spheres"], rng)
-    arm, obstacles = scene.arms[0], obstacles_of(scene, leave_out=("floor",))
+    arm, obstacles = scene.arms[0], obstacles_of(scene)
     row: dict[str, Any] = {}
     for ratio in SCENE_RATIOS:
         reading = Improved.nominal(gain_ratio=ratio)

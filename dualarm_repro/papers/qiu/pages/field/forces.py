@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 import pandas as pd
 
 from .....differences import central_differences
-from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Residual, Result
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Result
 from .....ledger.captions import captions
 from .....ledger.printed import EXACT
 from .....planning.field.disc_field import DiscField
@@ -26,7 +27,7 @@ from ...reading import CONTROL_POINTS, Search
 checks = partial(REGISTRY.checks, page="qiu/field")
 caption = captions(__file__)
 _CONTACT = 1e-3
-_SAMPLES = 40
+_SAMPLES, _TABLED = 40, 100
 _NO_FORMULA = NoOriginal("formula", "the formula")
 
 
@@ -65,7 +66,8 @@ def control_points(assumed: Assumed) -> Result:
     origins = arm.arm.joint_positions(zero) @ arm.placement.rotation.T + arm.placement.translation
     points = origins[np.array(chosen.frames) - 1]
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    panel = TipPanel("control points at zero joints", {}, [(arm, zero)], {"control point": points})
+    named = {f"O{k}": point for k, point in enumerate(points, 1)}
+    panel = TipPanel("control points at zero joints", {}, [(arm, zero)], named)
     return Result(
         obtained={
             "joints": {f"O{k}": joint for k, joint in enumerate(chosen.joints, 1)},
@@ -74,8 +76,7 @@ def control_points(assumed: Assumed) -> Result:
             "distinct": bool(apart[~np.eye(len(points), dtype=bool)].min() > EXACT),
         },
         caption=caption("fig05", origins=chosen.joints),
-        alt="Stick figure of the arm at zero joints with three marked points: elbow, wrist and "
-        "flange.",
+        alt="Stick figure of the arm at zero joints with its control points marked and named.",
         figure=lambda: tip_path_figure([panel], []),
     )
 
@@ -102,7 +103,29 @@ def resultant(assumed: Assumed) -> Result:
         size = float(np.linalg.norm(pull + push))
         gaps = [float(np.linalg.norm(side - sides[0])) / size for side in sides[1:]]
         worst = max(worst, *(gap if np.isfinite(gap) else np.inf for gap in gaps))
-    return Result(obtained={"difference": worst, "postures": _SAMPLES}, caption=caption("eq04"))
+    return Result(
+        obtained={"difference": worst, "postures": _SAMPLES},
+        table=_forces(made, attraction),
+        caption=caption("eq04"),
+    )
+
+
+def _forces(
+    made: SearchProblem, attraction: tuple[np.ndarray, float, float, Threshold]
+) -> pd.DataFrame:
+    """Both forces at random postures (N, 6) [rad], as columns of joints."""
+    q = made.placed.arm.random_configurations(_TABLED, np.random.default_rng(SEED))
+    parts = {
+        "q": q,
+        "goal": np.tile(made.goal, (_TABLED, 1)),
+        "F_att": [conic_force(row, *attraction) for row in q],
+        "F_rep": [repulsive_torque_at(made, row) for row in q],
+    }
+    frames = (
+        pd.DataFrame(rows, columns=[f"{name}{j}" for j in range(1, 7)])
+        for name, rows in parts.items()
+    )
+    return pd.concat(frames, axis=1)
 
 
 @checks(
@@ -181,33 +204,74 @@ def repulsive_potential(assumed: Assumed) -> Result:
 
 @checks(
     "qiu.eq08",
+    rules=[Residual("direction", "printed direction against the slope of the distance", high=1e-9)],
+)
+def repulsive_direction(assumed: Assumed) -> Result:
+    """The printed gradient of the distance, at every point that is repelled."""
+    balls, direction, count = list(spheres().values()), 0.0, 0
+    for point, m, _, outward in _repelled():
+        away = point - balls[m].center
+        foot = balls[m].center + balls[m].radius * away / np.linalg.norm(away)
+        printed = printed_side("eq08", 1, {"a_i": point, "O_s": foot}, "gradient")
+        gap = float(np.linalg.norm(printed - outward))
+        direction, count = max(direction, gap if np.isfinite(gap) else np.inf), count + 1
+    return Result(obtained={"direction": direction}, caption=caption("eq08", points=count))
+
+
+@checks(
+    "qiu.eq08_factor",
     rules=[
-        Residual("direction", "printed direction against the slope of the distance", high=1e-9),
         Residual("slope", "force against finite differences of (7), relative", high=1e-5),
         NoOriginal("factor", "the factor in front of the gradient"),
     ],
 )
-def repulsive_force(assumed: Assumed) -> Result:
-    """The printed gradient of the distance, and the force as the slope of (7)."""
-    made, eta0, influence = _problem(Search.nominal()), PRINTED.eta0, PRINTED.influence
-    balls, worst, direction = list(spheres().values()), 0.0, 0.0
+def repulsive_size(assumed: Assumed) -> Result:
+    """The size of the force as the slope of (7)."""
+    eta0, influence, worst = PRINTED.eta0, PRINTED.influence, 0.0
+    for _, _, rho, _ in _repelled():
+        if rho < influence - 1e-3:
+            slope = central_differences(
+                lambda x: inverse_distance_potential(x[0], eta0, influence), [rho]
+            )
+            force = inverse_distance_force(rho, eta0, influence, _CONTACT)
+            worst = max(worst, abs(force + float(slope[0])) / max(force, 1.0))
+    return Result(obtained={"slope": worst}, caption=caption("eq08_factor"))
+
+
+def _repelled() -> Iterator[tuple[np.ndarray, int, float, np.ndarray]]:
+    """Points (3,) that a sphere of some number repels on the way, their distance and the direction
+    away from it (3,)."""
+    made = _problem(Search.nominal())
     for q in _postures(made.goal):
         found = surroundings_at(made, 0, q, 0)
         for k, m in zip(*np.nonzero(found.acting(made.settings.repulsion.sources)), strict=True):
-            away = found.points[k] - balls[m].center
-            foot = balls[m].center + balls[m].radius * away / np.linalg.norm(away)
-            ends = {"a_i": found.points[k], "O_s": foot}
-            printed = printed_side("eq08", 1, ends, "gradient")
-            gap = float(np.linalg.norm(printed - found.outward[k, m]))
-            direction = max(direction, gap if np.isfinite(gap) else np.inf)
-            rho = float(found.distance[k, m])
-            if rho < influence - 1e-3:
-                slope = central_differences(
-                    lambda x: inverse_distance_potential(x[0], eta0, influence), [rho]
-                )
-                force = inverse_distance_force(rho, eta0, influence, _CONTACT)
-                worst = max(worst, abs(force + float(slope[0])) / max(force, 1.0))
-    return Result(obtained={"direction": direction, "slope": worst}, caption=caption("eq08"))
+            yield found.points[k], int(m), float(found.distance[k, m]), found.outward[k, m]
+
+
+@checks(
+    "qiu.claim_inverse",
+    rules=[
+        Bounded(
+            "departure", "slope of ln F over ln rho, farthest from that of 1 / rho", high="apart"
+        )
+    ],
+)
+def inverse_proportion(assumed: Assumed) -> Result:
+    """Slope of the force of (8) on logarithmic axes over its range; minus one is 1 / rho."""
+    eta0, influence = PRINTED.eta0, PRINTED.influence
+    rho = np.geomspace(0.02, 0.98, 97) * influence
+    force = np.array([inverse_distance_force(r, eta0, influence, _CONTACT) for r in rho])
+    slope = np.gradient(np.log(force), np.log(rho))
+    return Result(
+        obtained={
+            "departure": float(np.abs(slope + 1.0).max()),
+            "slope": {"near": float(slope[1]), "far": float(slope[-2])},
+            "falls": bool((np.diff(force) < 0.0).all()),
+            "jump_of_inverse": eta0 / influence,
+        },
+        table=pd.DataFrame({"rho_m": rho, "force": force, "slope": slope}),
+        caption=caption("claim_inverse", pull=PRINTED.threshold * PRINTED.zeta),
+    )
 
 
 @checks(

@@ -36,6 +36,7 @@ from .arm import flange_by_offsets
 
 checks = partial(REGISTRY.checks, page="qiu/geometry")
 caption = captions(__file__)
+_SETS = 4  # of goals that Table 2 is made of
 _given = partial(Rounds, tolerance=1e-12, reason="difference of two printed inputs")
 
 
@@ -96,6 +97,62 @@ def both_arms(assumed: Assumed) -> Result:
         scene=lambda: standing(
             "Both arms at zero joints on the printed bases.", arms.values(), zero, (1.6, 1.9, 1.3)
         ),
+    )
+
+
+def _start_tips() -> dict[str, np.ndarray]:
+    """The printed start tips of both arms (3,) [m]."""
+    master = printed_numbers("qiu.claim_start", "tcp")
+    return {"master": master, "slave": printed_numbers("qiu.claim_slave_task", "start")}
+
+
+@checks(
+    "qiu.claim_same_posture",
+    rules=[Residual("difference", "start tips seen from their bases, difference [m]", high=1e-12)],
+)
+def same_posture(assumed: Assumed) -> Result:
+    """The printed start tips, each seen from its own base."""
+    seen = {name: tip - PRINTED.bases[name] for name, tip in _start_tips().items()}
+    difference = float(np.abs(seen["master"] - seen["slave"]).max())
+    return Result(
+        obtained={"difference": difference, "seen": {n: at.tolist() for n, at in seen.items()}},
+        caption=caption("claim_same_posture"),
+    )
+
+
+@checks(
+    "qiu.claim_symmetric",
+    rules=[
+        Bounded(
+            "about_x",
+            "slave base from the master base mirrored at the X axis [m]",
+            low="apart",
+            role=Role.CONTRADICTS,
+        )
+    ],
+)
+def symmetric(assumed: Assumed) -> Result:
+    """The printed bases and start tips, mirrored at the X axis and at the YZ plane."""
+    miss = {}
+    for name, signs in (("about_x", (1, -1, -1)), ("in_yz", (-1, 1, 1))):
+        pairs = [PRINTED.bases, _start_tips()]
+        gaps = [np.linalg.norm(pair["master"] * signs - pair["slave"]) for pair in pairs]
+        miss[name], miss[f"{name}_tip"] = map(float, gaps)
+    return Result(obtained=miss, caption=caption("claim_symmetric"))
+
+
+@checks(
+    "qiu.claim_overlap",
+    rules=[Bounded("overlap", "twice the reach minus the distance of the bases [m]", low=0.0)],
+)
+def overlap(assumed: Assumed) -> Result:
+    """Distance of the printed bases against the reach of both arms."""
+    size = assumed["link_lengths"]
+    long = size["a2"] + float(np.hypot(size["a3"], size["d4"])) + size["d6"]
+    apart = float(np.linalg.norm(np.subtract(*PRINTED.bases.values())))
+    return Result(
+        obtained={"overlap": 2.0 * long - apart, "apart": apart, "reach": long},
+        caption=caption("claim_overlap"),
     )
 
 
@@ -279,8 +336,12 @@ def goals_15(assumed: Assumed) -> Result:
     centre = printed_numbers("qiu.claim_goals15", "centre")
     nearer = float(np.linalg.norm(PRINTED.centres - centre, axis=1).min()) - PRINTED.radius
     farthest = float(np.linalg.norm(drawn.points - centre, axis=1).max(initial=0.0))
-    table = pd.DataFrame(drawn.points, columns=TIP_COLUMNS)
-    table[JOINT_COLUMNS] = np.rad2deg(drawn.q)
+    box, tables = GoalBox.of(assumed), []
+    for seed in range(SEED, SEED + _SETS):
+        one = drawn if seed == SEED else box.draw(seed)
+        points = pd.DataFrame(one.points, columns=TIP_COLUMNS).assign(seed=seed)
+        points[JOINT_COLUMNS] = np.rad2deg(one.q)
+        tables.append(points)
     return Result(
         obtained={
             "count": len(np.unique(drawn.points, axis=0)),
@@ -288,7 +349,7 @@ def goals_15(assumed: Assumed) -> Result:
             "farthest": farthest,
             "rejected": drawn.rejected,
         },
-        table=table,
+        table=pd.concat(tables, ignore_index=True),
         caption=caption(
             "claim_goals15", goals=len(drawn.q), width=assumed["goal_set"], nearer=nearer
         ),

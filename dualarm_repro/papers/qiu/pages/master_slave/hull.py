@@ -11,9 +11,11 @@ from .....ledger import REGISTRY, Assumed, Bounded, Generally, NoOriginal, Resid
 from .....ledger.captions import captions
 from .....ledger.printed import read_number
 from .....ledger.witnesses import cell_witnesses
-from .....planning.checks.hull_cover import protrusions
-from .....planning.checks.query_cost import query_operations, query_times
-from .....planning.field.hull_obstacle import circles_on, hull_track
+from .....planning.checks.creases import largest_turn, to_capsules, to_hull
+from .....planning.checks.hull_cover import link_cores, protrusions
+from .....planning.checks.query_cost import distinct_faces, query_operations, query_times
+from .....planning.field.hull_obstacle import JointCircles, circles_on, hull_track
+from .....planning.search.failure import Failure
 from .....scene import ConvexHull
 from .....scene.posing import links_of
 from .....view.arm_scenes import inside_hull
@@ -22,12 +24,15 @@ from ...document import SEED, arm_in_use, placed
 from ...ends import TIP_COLUMNS
 from ...reading import ANGLE_UNITS, JUDGED_BY, Hull, Links
 from ...studies.dual_pairs import PAIR_POINTS, PAIR_RATIOS, PAIRS
+from ...studies.models import MODEL_TASKS, MODELS
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
 caption = captions(__file__)
 _POSES = 40
 _COUNTED = 12
 _QUERIES = 2000
+#: Chords past an arm, half their length, their samples, and the least distance looked at [m].
+_CHORDS, _LENGTH, _SPACING, _LEAST = 4, 0.4, 0.002, 0.02
 
 
 @checks(
@@ -83,13 +88,19 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
             at_least="most",
             margin="margin",
         ),
+        Generally(
+            "cured",
+            "tasks that only one of both models solves, solved around the hull",
+            at_least="most",
+            margin="margin",
+        ),
         Bounded(
             "operations_ratio", "operations per query, hull over capsules of the arm", high=1.0
         ),
     ],
 )
 def hull_claim(assumed: Assumed) -> Result:
-    """Success of the search around the hull, and its cost beside that of capsules."""
+    """Success of the search around the hull, alone and beside capsules, and the cost of both."""
     arm = placed("master", arm=arm_in_use(0.0, Links.of(assumed).radii))
     circles = Hull.of(assumed).circles()
     q = arm.arm.random_configurations(_POSES, np.random.default_rng(SEED))
@@ -99,11 +110,16 @@ def hull_claim(assumed: Assumed) -> Result:
     judged = JUDGED_BY[assumed["success_rule"]]
     table = PAIRS.load()
     keys = [f"{p}_{ratio:g}_{judged}" for p in PAIR_POINTS for ratio in PAIR_RATIOS]
-    cells = table.melt(id_vars="pair", value_vars=keys, var_name="reading", value_name="planned")
-    planned = cells["planned"].astype(bool)
+    cells = table.melt(["pair", "drawn"], keys, var_name="reading", value_name="planned")
+    planned, solved = cells["planned"].astype(bool), _solved("improved", judged)
+    apart = solved["hull"] != solved["capsules"]
     obtained = {
         "effective": {"count": int(planned.sum()), "of": len(cells)},
+        "effective_by_goals": planned.groupby(cells["drawn"]).mean().to_dict(),
+        "cured": {"count": int(solved["hull"][apart].sum()), "of": int(apart.sum())},
         "operations_ratio": hull_cost / capsule_cost,
+        "solved": {model: int(found.sum()) for model, found in solved.items()},
+        "tasks": len(apart),
         "judged_by": judged,
         "median_protrusion": float(np.median(most)),
         "largest_protrusion": float(sticking.max()),
@@ -116,6 +132,80 @@ def hull_claim(assumed: Assumed) -> Result:
         measured=query_times(arm, track, (0.2, 0.1, 0.9), _QUERIES),
         caption=caption("claim_hull_valid", hull=hull_cost, capsules=capsule_cost, poses=_POSES),
         witnesses=cell_witnesses(
-            "qiu.claim_hull_valid", obtained, cells, planned, ("pair", "reading")
+            "qiu.claim_hull_valid", obtained, cells, planned, ("pair", "drawn", "reading")
         ),
     )
+
+
+def _solved(search: str, judged: str) -> dict[str, pd.Series]:
+    """Which tasks around a standing master a search solves, by the model of the master."""
+    table = MODEL_TASKS.load()
+    return {model: table[f"{model}_{search}_{judged}"].astype(bool) for model in MODELS}
+
+
+@checks(
+    "qiu.claim_capsules",
+    rules=[
+        Generally(
+            "creased",
+            "random postures with a jump in the direction of repulsion around the capsules",
+            at_least="some",
+            margin="margin",
+        ),
+        Bounded("hull_turn", "largest turn of the direction around the hull [rad]", high="crease"),
+        Generally(
+            "cured",
+            "one-way searches that succeed around one model only, around the hull",
+            at_least="most",
+            margin="margin",
+        ),
+    ],
+)
+def capsules_break_the_field(assumed: Assumed) -> Result:
+    """Creases of the distance around both models, and the searches that fail around one only."""
+    limits = REGISTRY.look("qiu.claim_capsules", "thresholds").thresholds
+    judged = JUDGED_BY[assumed["success_rule"]]
+    turns = _turns(Hull.of(assumed).circles())
+    creased = turns["capsules"] > limits["crease"].value
+    table, solved = MODEL_TASKS.load(), _solved("traditional", judged)
+    failure = table["capsules_traditional_failure"]
+    apart = solved["hull"] != solved["capsules"]
+    cured = solved["hull"][apart]
+    minima = failure[~solved["capsules"]] == str(Failure.MIDWAY_MINIMUM)
+    obtained = {
+        "creased": {"count": int(creased.sum()), "of": len(creased)},
+        "hull_turn": float(turns["hull"].max()),
+        "cured": {"count": int(cured.sum()), "of": len(cured)},
+        "solved": {model: int(found.sum()) for model, found in solved.items()},
+        "tasks": len(failure),
+        "minima": {"count": int(minima.sum()), "of": len(minima)},
+        "judged_by": judged,
+    }
+    return Result(
+        obtained=obtained,
+        caption=caption("claim_capsules", turn=float(np.median(turns["capsules"]))),
+        witnesses=cell_witnesses(
+            "qiu.claim_capsules",
+            obtained,
+            table[apart],
+            cured,
+            ("task", "ratio"),
+        ),
+    )
+
+
+def _turns(circles: JointCircles) -> dict[str, np.ndarray]:
+    """Largest turn of the direction of repulsion on chords past a model of the arm, by posture."""
+    arm, rng = placed("master"), np.random.default_rng(SEED)
+    q, radii = arm.arm.random_configurations(_POSES, rng), links_of(arm.arm).radius
+    track = hull_track(circles_on(arm, circles, q))
+    found: dict[str, list[float]] = {model: [] for model in MODELS}
+    for k, cores in enumerate(link_cores(arm, q)):
+        near = {"capsules": to_capsules(cores, radii), "hull": to_hull(*distinct_faces(track, k))}
+        for _ in range(_CHORDS):
+            middle, way = cores.mean(axis=(0, 1)) + rng.normal(0.0, 0.1, 3), rng.normal(size=3)
+            along = np.arange(-_LENGTH, _LENGTH, _SPACING)[:, np.newaxis] * way
+            line = middle + along / np.linalg.norm(way)
+            for model, distance in near.items():
+                found[model].append(largest_turn(distance, line, _LEAST))
+    return {m: np.reshape(turns, (_POSES, -1)).max(axis=1) for m, turns in found.items()}

@@ -9,6 +9,7 @@ import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....ledger.captions import captions
+from .....ledger.printed_values import printed_numbers
 from .....planning.checks.contact_check import SAMPLING
 from .....planning.field.control_points import end_effector
 from .....planning.search.dual_search import DualSearch
@@ -16,20 +17,21 @@ from .....scene import Scene, densify, distances
 from .....view.arm_scenes import pair_panel, played_pair
 from .....view.tip_paths import tip_path_figure
 from ... import ends
+from ...calibrated import dual_readings
 from ...document import ARMS, FACE_VALUE, PRINTED, spheres
 from ...reading import Links, Slave
+from ...studies.free_pairs import FREE, MARGIN, free_reading
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
 caption = captions(__file__)
-_PLAYED = (
-    "Both arms on their paths (reconstruction); translucent: hull of the master at its middle pose."
-)
+FREE_OF_CONTACT = "free of contact"
+_PLAYED = "Both arms on paths without contact; translucent: hull of the master at its middle pose."
 
 
 @checks("qiu.fig15", rules=ends.JOINT_RULES)
 def slave_joints(assumed: Assumed) -> Result:
     """Joint angles of the slave while the hull of the master moves."""
-    plans = Slave.of(assumed).dual_readings()
+    plans = dual_readings(Slave.of(assumed))
     face, other = plans.values()
     return ends.joints_of(
         {name: plan.slave_path for name, plan in plans.items()},
@@ -37,7 +39,7 @@ def slave_joints(assumed: Assumed) -> Result:
         caption("fig15", samples=[len(face.slave_path), len(other.slave_path)]),
         "Six panels of joint angles of the slave over the samples of its path, for two readings.",
         joined=face.slave.reached,
-        reconstruction_joined=other.slave.reached,
+        calibrated_joined=other.slave.reached,
     )
 
 
@@ -51,13 +53,17 @@ def slave_joints(assumed: Assumed) -> Result:
 )
 def slave_coordinates(assumed: Assumed) -> Result:
     """Coordinates of the slave's flange while the hull of the master moves."""
-    plans, halves = Slave.of(assumed).dual_readings(), PRINTED.slave_meeting
+    plans, halves = dual_readings(Slave.of(assumed)), PRINTED.slave_meeting
     tips = {n: end_effector(p.slave.placed, p.slave_path) for n, p in plans.items()}
     shifts = tips[FACE_VALUE][[0, -1]] - plans[FACE_VALUE].slave.tcp[[0, -1]]
     return ends.coordinates_of(
         tips,
         {"end_error": float(np.linalg.norm(shifts, axis=1).max())},
         halves,
+        {
+            "printed start": printed_numbers("qiu.claim_slave_task", "start"),
+            "printed goal": PRINTED.slave_goal,
+        },
         caption("fig16", height=halves[0, 2]),
         "Three panels with x, y and z of the slave's flange over its path for two readings.",
     )
@@ -75,8 +81,11 @@ def slave_coordinates(assumed: Assumed) -> Result:
 def both_arms_together(assumed: Assumed) -> Result:
     """Distance of the arms over a common motion, and both arms played."""
     reading, radii = Slave.of(assumed), Links.of(assumed).radii
-    plans, scene = reading.dual_readings(), reading.scene(radii)
-    face, other = plans.values()
+    chosen = free_reading()
+    plans, scene = dual_readings(reading), reading.scene(radii)
+    face, free = plans[FACE_VALUE], chosen.dual_plan()
+    plans[FREE_OF_CONTACT] = free
+    keeps = free.contact(chosen.scene()).smallest
     pairs = {"arm to arm": ("master",), "slave to spheres": tuple(spheres())}
     curves = {
         f"{pair}, {name}": _distance(scene, densify(plan.stacked(scene), SAMPLING)[0], *bodies)
@@ -87,28 +96,36 @@ def both_arms_together(assumed: Assumed) -> Result:
         obtained={
             "apart": max(face.master.gap, face.slave.gap) - reading.joint_tolerance,
             "smallest": {name: float(values.min()) for name, values in curves.items()},
-            "floor": face.contact(scene).clearance["floor"],
+            "yield": _yield(),
         },
-        caption=caption("fig17"),
-        table=_motion(face, scene),
+        caption=caption("fig17", chosen=chosen, margin=MARGIN, keeps=keeps),
+        table=pd.concat([_motion(plan, scene, name) for name, plan in plans.items()]),
         alt="Both arms among the spheres at common times, with the paths of both flanges, in two "
         "panels for two readings.",
         figure=lambda: tip_path_figure(
-            [pair_panel(name, plan) for name, plan in plans.items()],
+            [pair_panel(name, plans[name]) for name in (FACE_VALUE, FREE_OF_CONTACT)],
             list(spheres().values()),
             azim=60,
         ),
-        scene=lambda: played_pair(_PLAYED, other, spheres(), (0.6, 2.0, 1.4)),
+        scene=lambda: played_pair(_PLAYED, free, spheres(), (0.6, 2.0, 1.4)),
     )
 
 
-def _motion(plan: DualSearch, scene: Scene) -> pd.DataFrame:
-    """Joints of both arms on common samples and the smallest distance between them there."""
+def _yield() -> dict[str, int]:
+    """How many readings of the stored map join both arms, and how many of those are free."""
+    table = FREE.load()
+    return {key: int(table[key].sum()) for key in ("joined", "free")} | {"tried": len(table)}
+
+
+def _motion(plan: DualSearch, scene: Scene, name: str) -> pd.DataFrame:
+    """Joints of both arms on common samples of a reading and the smallest distance between them
+    there."""
     q = plan.stacked(scene)
     made = pd.DataFrame(
         np.rad2deg(np.hstack(plan.played())),
         columns=[f"{name}_{joint}" for name in ARMS for joint in ends.JOINT_COLUMNS],
     )
+    made.insert(0, "reading", name)
     return made.assign(arm_to_arm_m=_distance(scene, q, "master"))
 
 

@@ -12,13 +12,17 @@ import pandas as pd
 from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
+from .....ledger.printed_values import printed_numbers
 from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
 from .....view.diagrams import flow_chart
 from ... import ends
+from ...calibrated import dual_readings
 from ...document import PRINTED
 from ...reading import Links, Slave
+from ...studies.fit_slave import FIT_SLAVE
+from ...studies.free_pairs import FREE
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
 caption = captions(__file__)
@@ -73,23 +77,29 @@ def order_of_work(assumed: Assumed) -> Result:
 
 
 def _outcomes(assumed: Assumed) -> tuple[dict[str, Any], dict[str, Any]]:
-    """How the slave's search came out, at face value and in the reconstruction."""
-    face, other = (plan.slave for plan in Slave.of(assumed).dual_readings().values())
-    printed = PRINTED.slave_meeting
-    return ends.outcome(face, printed), ends.outcome(other, printed)
+    """How the slave's search came out, at face value and by the calibrated reading."""
+    face, other = (plan.slave for plan in dual_readings(Slave.of(assumed)).values())
+    printed = PRINTED.slave_meeting, printed_numbers("qiu.claim_slave_counts", *ends.HALVES)
+    return ends.outcome(face, *printed), ends.outcome(other, *printed)
 
 
 @checks("qiu.claim_slave_counts", rules=ends.count_rules("the slave's halves meet"))
 def counts(assumed: Assumed) -> Result:
     """Searches of the slave's halves while the hull of the master moves."""
     printed = REGISTRY.printed("qiu.claim_slave_counts")["forward"]
-    return Result(ends.counted(*_outcomes(assumed)), caption("claim_slave_counts", printed=printed))
+    obtained = ends.counted(*_outcomes(assumed), FIT_SLAVE.load())
+    told = caption("claim_slave_counts", printed=printed)
+    return Result(obtained, told, witnesses=ends.fit_witness(FIT_SLAVE.load(), np.inf))
 
 
 @checks("qiu.claim_slave_meet", rules=ends.meeting_rules("the slave's halves meet"))
 def meeting(assumed: Assumed) -> Result:
     """Where the slave's halves end, against print."""
-    return Result(ends.met(*_outcomes(assumed), PRINTED.slave_meeting), caption("claim_slave_meet"))
+    return Result(
+        obtained=ends.met(*_outcomes(assumed), PRINTED.slave_meeting),
+        caption=caption("claim_slave_meet"),
+        witnesses=ends.fit_witness(FIT_SLAVE.load()),
+    )
 
 
 @checks(
@@ -148,4 +158,15 @@ def no_collision(assumed: Assumed) -> Result:
             "control_points": plan.slave.control_clearance,
         },
         caption=caption("claim_no_collision", most=_SHIFTS[-1]),
+        witnesses=_free_witness(),
     )
+
+
+def _free_witness() -> list[dict[str, Any]]:
+    """The reading of the yield map that keeps the largest distance, if any is free."""
+    free = FREE.load().query("free")
+    if free.empty:
+        return []
+    index = free["smallest"].idxmax()
+    values = {str(key): value for key, value in free.loc[index].items()}
+    return [{"choice": f"yield map, cell {index}", "verdict": "holds", "values": values}]
