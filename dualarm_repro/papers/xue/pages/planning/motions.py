@@ -12,6 +12,7 @@ from .....ledger.captions import captions
 from .....planning.plan import Plan
 from .....planning.trials.replay import Replay
 from .....view import replays
+from .....view.link_bodies import Body
 from .....view.style import MASTER
 from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
 from ...document import Layout, gains
@@ -66,6 +67,7 @@ def master_past_window(assumed: Assumed) -> Result:
     if motions is None:
         return Result(found, _NO_START)
     layout, (plan, alone) = Layout.of(assumed), motions
+    bodies = [Body(plan.placed, plan.path[k], MASTER, k) for k in _instants(plan.steps)]
     tracks = [
         Track("attraction alone", alone.tcp, "0.5", ":"),
         Track("improved method", plan.tcp, MASTER),
@@ -77,7 +79,9 @@ def master_past_window(assumed: Assumed) -> Result:
         caption=caption("fig08"),
         alt="Track of the master's end effector in space past a window frame of four bars, bent "
         "away from the dashed track it would take without repulsion.",
-        figure=lambda: tracks_figure(layout.window(), tracks, ends, elev=18, azim=-40),
+        figure=lambda: tracks_figure(
+            layout.window(), tracks, ends, bodies=bodies, elev=18, azim=-40
+        ),
         scene=lambda: replays.add_plan(
             stage("The master moves past the window; its track is blue.", layout), plan
         ),
@@ -107,16 +111,18 @@ def slave_collides(assumed: Assumed) -> Result:
     replay, found = _colliding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    layout, (deepest, nearest) = Layout.of(assumed), replays.contacts_of(replay)
+    layout, (deepest, _) = Layout.of(assumed), replays.contacts_of(replay)
+    step, middle = replays.meeting(replay)
     tcp = replay.plan.tcp
-    contacts = {"hits the window": tcp[deepest], "meets the master": tcp[nearest]}
+    contacts = {f"in a bar, step {deepest}": tcp[deepest], f"meeting, step {step}": middle}
+    how: dict[str, Any] = {"instants": [step], **_VIEW}
     title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
         obtained=found,
         caption=caption("fig09"),
         alt="Tracks of both end effectors in space; the slave's solid track runs through a bar of "
         "the window and crosses the master's dashed track, with circles at both places.",
-        figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **_VIEW),
+        figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **how),
         scene=lambda: replays.add_contacts(
             replays.add_replay(stage(title, layout), replay), replay
         ),
@@ -161,13 +167,14 @@ def _avoiding_tracks(
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    layout = Layout.of(assumed)
+    layout, nearest = Layout.of(assumed), int(replay.apart().argmin())
+    instants = [min(nearest, replay.plan.steps)] if title else _instants(replay.plan.steps)
     return Result(
         obtained=found,
         table=replay.to_frame(),
         caption=caption(block),
         alt=alt,
-        figure=lambda: _tracks_figure(view, layout, replay, **how),
+        figure=lambda: _tracks_figure(view, layout, replay, instants=instants, **how),
         scene=(lambda: replays.add_replay(stage(title, layout), replay)) if title else None,
     )
 
@@ -201,6 +208,11 @@ def slave_avoids(assumed: Assumed) -> Result:
             curves, {"contact": 0.0, "meeting": assumed["meeting_distance"]}
         ),
     )
+
+
+def _instants(steps: int) -> list[int]:
+    """Steps at which arms are drawn: a third and two thirds of the way, at multiples of 20."""
+    return [20 * round(share * steps / 20) for share in (1 / 3, 2 / 3)]
 
 
 def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:

@@ -1,0 +1,293 @@
+"""What `xue` claims of its method in words: escapes, success, attraction, quality of paths."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result
+from ....ledger.captions import captions
+from ....ledger.shares import Share
+from ....ledger.statistical_rules import Generally
+from ....tracking import memo
+from ....view.shares import shares_figure
+from ..motions import points_to_window, present, slave_undisturbed
+from ..outcomes import VARIANTS, variant_of
+from ..reading import POSITION_TOLERANCE, nominal
+from ..stored import choice, is_declared, lottery_table, mean_with_interval
+from ..studies.ablation import ABLATION, NAMED
+from ..studies.paths import PATHS
+from ..studies.trials import REPEATED
+from .potentials.printed_field import attraction, slope
+
+checks = partial(REGISTRY.checks, page="xue/claims")
+caption = captions(__file__)
+
+#: Planner with the virtual point, by when it acts; the others are run in the ablation only.
+_SWITCHED = ("replaces_goal", "from_start", "always")
+#: What a path is measured by, and the sign of an improvement.
+_MEASURES = {
+    "tool_path": ("length of the tool's path saved, logarithm", -1.0),
+    "bending": ("mean squared curvature of that path saved, logarithm", -1.0),
+    "radius": ("radius that all links could have more [m]", 1.0),
+    "postures": ("postures looked at saved, logarithm", -1.0),
+}
+
+
+@memo()
+def paths_table() -> pd.DataFrame:
+    """One row per arrangement: what the path of each method is worth."""
+    return PATHS.load()
+
+
+@checks(
+    "xue.claim_virtual_escapes",
+    rules=[
+        Generally(
+            key="freed",
+            label="arrangements with traps in which it frees at least half of the trapped runs",
+            at_least="mostly",
+            margin="margin",
+        ),
+        Generally(
+            key="spoiled",
+            label="arrangements in which more runs miss with it than without",
+            at_most="seldom",
+            margin="seldom",
+        ),
+    ],
+    samples=16,
+)
+def virtual_point_escapes(assumed: Assumed) -> Result:
+    """Runs trapped without the virtual point, and what becomes of them with it."""
+    switching = assumed["virtual_switching"]
+    table, with_it = (
+        (_ablation(), switching) if switching in _SWITCHED else (lottery_table(), "improved")
+    )
+    gain = table["without_virtual_missed"] - table[f"{with_it}_missed"]
+    trapped = table["without_virtual_trapped"]
+    caught = trapped > 0
+    mostly = (gain[caught] >= 0.5 * trapped[caught]).sum()
+    shown, lottery = _nominal_counts(), lottery_table()
+    acted = lottery["improved_used"] > 0
+    return Result(
+        obtained={
+            "freed": {"count": int(mostly), "of": int(caught.sum())},
+            "spoiled": {"count": int((gain < 0).sum()), "of": len(table)},
+            "runs_trapped": int(trapped.sum()),
+            "runs_gained": int(gain.sum()),
+            "arrangements": len(table),
+            "acts": int(lottery["improved_used"].sum()),
+            "rescues": int(lottery["improved_rescued"].sum()),
+            "acts_in": Share.of(int(acted.sum()), len(lottery))._asdict(),
+            "nominal": shown,
+        },
+        caption=caption("claim_virtual_escapes", switching=switching.replace("_", " ")),
+        alt="Bars with intervals: share of the trapped runs that the virtual point frees, by when "
+        "it acts.",
+        figure=_freed_figure,
+    )
+
+
+def _ablation() -> pd.DataFrame:
+    table = ABLATION.load()
+    return table[~table["layout"].isin(NAMED)]
+
+
+def _nominal_counts() -> dict[str, int]:
+    """Trials of the arrangement shown: trapped without the point, it acted, it rescued."""
+    table = REPEATED.load()
+    columns = {"runs": "improved_runs", "trapped": "without_virtual_trapped",
+               "acts": "improved_used", "rescues": "improved_rescued"}  # fmt: skip
+    return {name: int(table[column].sum()) for name, column in columns.items()}
+
+
+def _freed_figure() -> Any:
+    table, rows = _ablation(), {}
+    trapped = table["without_virtual_trapped"].sum()
+    for name in ("improved", *_SWITCHED):
+        freed = (table["without_virtual_missed"] - table[f"{name}_missed"]).clip(lower=0).sum()
+        rows[VARIANTS[name].title] = {"freed": Share.of(min(freed, trapped), trapped)}
+    return shares_figure(rows, "share of trapped runs that arrive with the virtual point")
+
+
+@checks(
+    "xue.claim_goal_angles",
+    rules=[
+        Generally(
+            key="at_goal",
+            label="runs at the goal angles whose end effector is as near to its goal as assumed",
+            at_least="none_beyond",
+            margin="margin",
+        ),
+        Bounded("unavoided", "distance to a bar of the run of Fig. 9, which arrives [m]", low=0.0),
+    ],
+)
+def goal_angles(assumed: Assumed) -> Result:
+    """The printed criterion of success, applied to every run there is."""
+    table, case = paths_table(), nominal()
+    by_angles = table[table["improved_arrives"].astype(bool)]
+    near = (by_angles["improved_off_goal"] <= POSITION_TOLERANCE).sum()
+    undisturbed = present(slave_undisturbed(case.layout, case.planner), "motion of the slave")
+    arrived = table[table["traditional_arrives"].astype(bool)]
+    reach = arrived["traditional_off_goal_angles"] <= case.planner.goal_tolerance
+    return Result(
+        obtained={
+            "at_goal": {"count": int(near), "of": len(by_angles)},
+            "farthest": float(by_angles["improved_off_goal"].max()),
+            "unavoided": float(points_to_window(undisturbed, case.layout).min())
+            if undisturbed.reached
+            else None,
+            "traditional": {"count": int(reach.sum()), "of": len(arrived)},
+            "traditional_off_angles": float(arrived["traditional_off_goal_angles"].median()),
+        },
+        caption=caption("claim_goal_angles", tolerance=POSITION_TOLERANCE),
+    )
+
+
+@checks(
+    "xue.claim_attraction_falls",
+    rules=[
+        Is("falls", "the force of (9), as printed, grows with the distance", value=True),
+        Generally(
+            key="slave",
+            label="improved runs of the slave with the largest attraction at the start",
+            at_least="always",
+            margin="margin",
+        ),
+        Generally(
+            key="traditional",
+            label="the same of traditional runs",
+            at_least="always",
+            margin="margin",
+        ),
+        Generally(key="master", label="the same of the master", at_least="always", margin="margin"),
+    ],
+)
+def attraction_falls(assumed: Assumed) -> Result:
+    """Force of the goal over the distance, and where it is largest on whole motions."""
+    table, forces = paths_table(), _forces()
+    rises = {"master": table["master_rise"], "slave": table["improved_rise"],
+             "traditional": table["traditional_rise"]}  # fmt: skip
+    counts = {
+        name: {"count": int((column.dropna() <= 1e-9).sum()), "of": int(column.notna().sum())}
+        for name, column in rises.items()
+    }
+    rows = {name: {"largest at the start": Share.of(**_total(c))} for name, c in counts.items()}
+    return Result(
+        obtained={
+            "falls": bool((np.diff(forces) > 0.0).all()),
+            **counts,
+            "largest_rise": {name: float(column.max()) for name, column in rises.items()},
+        },
+        caption=caption("claim_attraction_falls"),
+        alt="Bars with intervals: share of motions whose attraction is largest at the start.",
+        figure=lambda: shares_figure(rows, "share of motions"),
+    )
+
+
+def _total(counts: dict[str, int]) -> dict[str, int]:
+    return {"count": counts["count"], "total": counts["of"]}
+
+
+def _forces() -> np.ndarray:
+    """Size of the slope of (9), as printed, at growing distances from the goal (N,)."""
+    goal = np.zeros(3)
+    away = np.linspace(0.1, 4.0, 20)[:, np.newaxis] * np.ones(3) / np.sqrt(3.0)
+    return np.array([np.linalg.norm(slope(lambda x: attraction(x, goal), x)) for x in away])
+
+
+@checks(
+    "xue.claim_path_quality",
+    rules=[
+        Exceeds(key=name, label=words, threshold="clearance" if name == "radius" else "gain")
+        for name, (words, _) in _MEASURES.items()
+    ],
+    samples=8,
+)
+def path_quality(assumed: Assumed) -> Result:
+    """Paired differences of four measures over the arrangements in which both methods arrive."""
+    reading = assumed["classical_method"]
+    differences = gains_of(variant_of(reading))
+    found = {name: mean_with_interval(differences[name]) for name in _MEASURES}
+    return Result(
+        obtained={**found, "arrangements": len(differences)},
+        table=differences.reset_index(names="arrangement"),
+        caption=caption("claim_path_quality", gains=[_told(k, one) for k, one in found.items()]),
+        alt="Mean gain of the improved method with its interval, for four measures of a path.",
+        figure=lambda: gains_figure(found),
+        witnesses=_witnesses(differences, found),
+    )
+
+
+def gains_of(old: str) -> pd.DataFrame:
+    """Advantage of the improved method in every arrangement where both arrive."""
+    table = paths_table()
+    both = table[table[f"{old}_arrives"].astype(bool) & table["improved_arrives"].astype(bool)]
+    columns = {}
+    for name, (_, sign) in _MEASURES.items():
+        new, before = both[f"improved_{name}"], both[f"{old}_{name}"]
+        columns[name] = new - before if name == "radius" else sign * np.log(new / before)
+    return pd.DataFrame(columns)
+
+
+def _told(name: str, one: dict[str, Any]) -> str:
+    """A mean gain with its interval in words; a logarithm as the share that is saved."""
+    ends = [one["value"], one["low"], one["high"]]
+    if name == "radius":
+        value, low, high = (f"{1e3 * end:.1f}" for end in ends)
+        return f"leaves room for links thicker by {value} mm ({low} to {high})"
+    words = {"tool_path": "makes paths shorter by", "bending": "bends them less by",
+             "postures": "looks at fewer postures by"}[name]  # fmt: skip
+    value, low, high = (f"{-100 * np.expm1(-end):.0f}" for end in ends)
+    return f"{words} {value} % ({low} to {high})"
+
+
+def gains_figure(found: dict[str, dict[str, Any]]) -> Any:
+    """Gains with intervals; the radius has another unit and a panel of its own."""
+    import matplotlib.pyplot as plt
+
+    from ....view.style import BLACK, BLUE, WIDTH, house_style
+
+    ratios = {name: found[name] for name in _MEASURES if name != "radius"}
+    told = {"tool_path": "shorter", "bending": "less bent", "postures": "fewer postures"}
+    with house_style():
+        figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 2.6), width_ratios=(2.2, 1.0))
+        for k, one in enumerate(ratios.values()):
+            factors = np.exp([one["low"], one["value"], one["high"]])
+            left.plot(factors[[0, 2]], [k, k], color=BLUE, lw=3)
+            left.plot(factors[1], k, "o", color=BLUE)
+        left.set(xscale="log", xlabel="traditional / improved, geometric mean",
+                 yticks=range(len(ratios)), ylim=(-0.6, len(ratios) - 0.4))  # fmt: skip
+        left.set_yticklabels([told[name] for name in ratios])
+        left.axvline(1.0, color=BLACK, lw=1, ls="--")
+        left.set_xticks([0.5, 0.7, 1, 1.4, 2, 3], ["0.5", "0.7", "1", "1.4", "2", "3"])
+        left.minorticks_off()
+        ends = np.exp([end for one in ratios.values() for end in (one["low"], one["high"])])
+        left.set_xlim(0.93 * min(0.9, ends.min()), 1.07 * max(1.1, ends.max()))
+        one = found["radius"]
+        right.plot(1e3 * np.array([one["low"], one["high"]]), [0, 0], color=BLUE, lw=3)
+        right.plot(1e3 * one["value"], 0, "o", color=BLUE)
+        right.axvline(0.0, color=BLACK, lw=1, ls="--")
+        right.set(xlabel="thicker links [mm]", yticks=[], ylim=(-0.6, 0.6))
+    return figure
+
+
+def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    """For every measure that stays open, an arrangement of either kind."""
+    declared = is_declared(lottery_table().loc[differences.index])
+    witnesses = []
+    for name, one in found.items():
+        edge = 0.0 if name == "radius" else _threshold("gain")
+        if one["low"] <= edge <= one["high"]:
+            column = differences[name].where(declared)
+            for k, verdict in ((column.idxmax(), "holds"), (column.idxmin(), "fails")):
+                witnesses.append(choice(int(k), verdict, **{name: float(column[k])}))
+    return witnesses
+
+
+def _threshold(name: str) -> float:
+    return float(REGISTRY.look("xue.claim_path_quality").thresholds[name].value)
