@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
@@ -119,6 +120,7 @@ def slave_collides(assumed: Assumed) -> Result:
     title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
         obtained=found,
+        table=_motion_frame(replay),
         caption=caption("fig09"),
         alt="Tracks of both end effectors in space; the slave's solid track runs through a bar of "
         "the window and crosses the master's dashed track, with circles at both places.",
@@ -171,7 +173,7 @@ def _avoiding_tracks(
     instants = [min(nearest, replay.plan.steps)] if title else _instants(replay.plan.steps)
     return Result(
         obtained=found,
-        table=replay.to_frame(),
+        table=_motion_frame(replay),
         caption=caption(block),
         alt=alt,
         figure=lambda: _tracks_figure(view, layout, replay, instants=instants, **how),
@@ -208,6 +210,16 @@ def slave_avoids(assumed: Assumed) -> Result:
             curves, {"contact": 0.0, "meeting": assumed["meeting_distance"]}
         ),
     )
+
+
+def _motion_frame(replay: Replay) -> pd.DataFrame:
+    """One row per step: end effectors of both arms [m], then their joints, <arm>_q1_rad ..."""
+    joints = {
+        f"{name}_q{j + 1}_rad": angle
+        for name, q in replay.configurations().items()
+        for j, angle in enumerate(q.T)
+    }
+    return replay.to_frame().assign(**joints)
 
 
 def _instants(steps: int) -> list[int]:
