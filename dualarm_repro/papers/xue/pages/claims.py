@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
@@ -14,6 +15,7 @@ from ....ledger.shares import Share
 from ....ledger.statistical_rules import Generally
 from ....tracking import memo
 from ....view.shares import shares_figure
+from ....view.style import BLACK, BLUE, WIDTH, house_style
 from ..motions import points_to_window, present, slave_undisturbed
 from ..outcomes import VARIANTS, variant_of
 from ..reading import POSITION_TOLERANCE, nominal
@@ -248,32 +250,27 @@ def _told(name: str, one: dict[str, Any]) -> str:
 
 def gains_figure(found: dict[str, dict[str, Any]]) -> Any:
     """Gains with intervals; the radius has another unit and a panel of its own."""
-    import matplotlib.pyplot as plt
-
-    from ....view.style import BLACK, BLUE, WIDTH, house_style
-
-    ratios = {name: found[name] for name in _MEASURES if name != "radius"}
-    told = {"tool_path": "shorter", "bending": "less bent", "postures": "fewer postures"}
+    told = {"tool_path": "path length", "bending": "bending", "postures": "postures looked at"}
     with house_style():
-        figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 2.6), width_ratios=(2.2, 1.0))
-        for k, one in enumerate(ratios.values()):
-            factors = np.exp([one["low"], one["value"], one["high"]])
-            left.plot(factors[[0, 2]], [k, k], color=BLUE, lw=3)
-            left.plot(factors[1], k, "o", color=BLUE)
-        left.set(xscale="log", xlabel="traditional / improved, geometric mean",
-                 yticks=range(len(ratios)), ylim=(-0.6, len(ratios) - 0.4))  # fmt: skip
-        left.set_yticklabels([told[name] for name in ratios])
-        left.axvline(1.0, color=BLACK, lw=1, ls="--")
-        left.set_xticks([0.5, 0.7, 1, 1.4, 2, 3], ["0.5", "0.7", "1", "1.4", "2", "3"])
-        left.minorticks_off()
-        ends = np.exp([end for one in ratios.values() for end in (one["low"], one["high"])])
-        left.set_xlim(0.93 * min(0.9, ends.min()), 1.07 * max(1.1, ends.max()))
+        figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 2.4), width_ratios=(2.2, 1.0))
+        for k, name in enumerate(told):
+            one = found[name]
+            saved = -100 * np.expm1(-np.array([one["low"], one["value"], one["high"]]))
+            _interval(left, saved, k)
+        left.set(xlabel="saved by the improved method [%]", yticks=range(len(told)),
+                 ylim=(-0.6, len(told) - 0.4))  # fmt: skip
+        left.set_yticklabels(list(told.values()))
         one = found["radius"]
-        right.plot(1e3 * np.array([one["low"], one["high"]]), [0, 0], color=BLUE, lw=3)
-        right.plot(1e3 * one["value"], 0, "o", color=BLUE)
-        right.axvline(0.0, color=BLACK, lw=1, ls="--")
-        right.set(xlabel="thicker links [mm]", yticks=[], ylim=(-0.6, 0.6))
+        _interval(right, 1e3 * np.array([one["low"], one["value"], one["high"]]), 0)
+        right.set(xlabel="links thicker by [mm]", yticks=[], ylim=(-0.6, 0.6))
     return figure
+
+
+def _interval(ax: Any, ends: np.ndarray, row: float) -> None:
+    """An interval (low, value, high) in a row, beside zero."""
+    ax.axvline(0.0, color=BLACK, lw=1, ls="--")
+    ax.plot(ends[[0, 2]], [row, row], color=BLUE, lw=3)
+    ax.plot(ends[1], row, "o", color=BLUE)
 
 
 def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
