@@ -29,17 +29,15 @@ STUDIES = (
     "xue_planners",
 )
 
+#: Studies whose cells take longer.
+LONG = ("xue_search", "xue_ablation", "xue_paths", "xue_planners")
+
 
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_cell_recomputes_to_what_is_stored(registry, name):
     study = registry.studies[name]
     assert study.status() == "up to date"
-    if name not in (
-        "xue_search",
-        "xue_ablation",
-        "xue_paths",
-        "xue_planners",
-    ):  # whose cells take longer
+    if name not in LONG:
         assert study.spot_check(1, seed=5) == []
 
 

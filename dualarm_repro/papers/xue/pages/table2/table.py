@@ -109,7 +109,7 @@ def both_methods(assumed: Assumed) -> Result:
         caption=caption("tab02", trials=trials, runs=TRIALS),
         alt="Bars with intervals: share of trials that miss, per method and rule of the joint "
         "step.",
-        figure=lambda: shares_figure(_named(many), MISS_LABEL),
+        figure=lambda: shares_figure(_named(many), MISS_LABEL, _printed_mark()),
     )
 
 
@@ -216,6 +216,12 @@ def _counts(trials: Trials | None) -> dict[str, Any]:
         "virtual_point_used": trials.improved.used,
         "intervals": {k: list(Share.of(one.missed, TRIALS)[1:]) for k, one in found.items()},
     }
+
+
+def _printed_mark() -> tuple[float, str]:
+    """Where the text's count of trapped runs lies among the shares, and its name."""
+    trapped = text_counts()["traditional"]
+    return trapped / TRIALS, f"printed in the text: {trapped} of {TRIALS}"
 
 
 def _plain(shares: Mapping[str, Share]) -> dict[str, dict[str, float]]:
