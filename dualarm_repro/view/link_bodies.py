@@ -61,7 +61,7 @@ def draw_flat(ax: Any, body: Body, pair: list[int], alpha: float = 0.22) -> None
 def _tube(start: np.ndarray, end: np.ndarray, radius: float) -> list[np.ndarray]:
     """Faces (4, 3) of a tube; of a link without length, a short one along z."""
     way = end - start
-    length = np.linalg.norm(way)
+    length = float(np.linalg.norm(way))
     if length < 1e-9:
         way, length = np.array([0.0, 0.0, radius]), radius
         start = start - 0.5 * way

@@ -67,7 +67,7 @@ def sample_problem(
     placed = PlacedArm("master", load_arm("es165d"), start=master_start(), goal=master_goal())
     bar = WINDOW["bar"]
     centre, opening = np.array(_CENTRE), WINDOW["opening"]
-    window = window_frame(centre, facing((1.0, 0.0, 0.0)), *opening, bar, bar)
+    window = window_frame(centre, facing((1.0, 0.0, 0.0)), *opening, bar, bar)  # type: ignore[call-arg]
     obstacles = obstacles_of(Scene([placed], {"window": window}, self_collision=False))
     settings = improved(replace(_PLANNER, **chosen), np.array(virtual_centre), master_goal())
     away = master_start() + np.array([0.8, 0.0, 0.0, 0.0, 0.0, 0.0])
