@@ -1,4 +1,4 @@
-"""Whether a run that stands still does so in a minimum of the potential, on either side of it.
+"""Whether a run that stands still is held there: in a minimum of the potential, on either side.
 
 A potential of distances has a continuous gradient whose derivative jumps where the nearest place of
 an obstacle leaves a face for an edge. A difference over both sides averages what differs there, so
@@ -42,7 +42,7 @@ def smallest_one_sided_curvature(made: PlanningProblem, q: np.ndarray, step: int
     return float(min(curvatures) / max(np.abs(curvatures)))
 
 
-def minima(made: PlanningProblem, last: np.ndarray, flat: np.ndarray) -> np.ndarray:
+def held(made: PlanningProblem, last: np.ndarray, flat: np.ndarray) -> np.ndarray:
     """Which runs stand still in a true minimum, obstacles at rest, (N,) of bool.
 
     The gradient vanishes, and no one-sided second derivative is negative.
