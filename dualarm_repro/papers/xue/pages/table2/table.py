@@ -28,7 +28,7 @@ caption = captions(__file__)
 MISS_LABEL = "share of trials that miss the goal"
 #: Assumptions about the trials: reading of the traditional method, variation of starts, seed.
 TRIAL_SETTINGS = ("classical_method", "success_criterion", "trial_perturbation", "trial_seed")
-_RULES = {"gradient": "gradient", "neighbour_search": "729 neighbours"}
+_RULES = {"gradient": "gradient", "neighbour_search": "search"}
 _CRITERION = {"position": "by position", "goal_angles": "by goal angles"}
 
 
@@ -268,7 +268,7 @@ def _printed_beside() -> dict[str, str]:
         ("improved", "improved", "goal_angles"),
     ):
         seconds = REGISTRY.printed("xue.tab02")[name]["mean_time"]
-        text = f"print: {words[name]} (text), {table[name]} (table)\nof {TRIALS}; {seconds} s"
+        text = f"print: {words[name]} (text), {table[name]} (table) of {TRIALS}; {seconds} s"
         beside[_row_title(method, criterion)] = text
     return beside
 
