@@ -107,7 +107,7 @@ def test_clear_share_falls_with_the_radius(registry):
 
 
 def test_nominal_numbers_are_the_best_of_the_search(registry):
-    best = SEARCH.load().sort_values("score").iloc[-1]
+    best = SEARCH.load().sort_values(["survives", "score"]).iloc[-1]
     layout = nominal().layout
     for name in vars(layout):
         value = getattr(layout, name)
@@ -117,10 +117,11 @@ def test_nominal_numbers_are_the_best_of_the_search(registry):
 def test_nominal_arrangement_fails_where_its_climb_says(registry):
     """Links that stay clear are what a meeting on the way costs; nothing else is far from met."""
     found, best = judged(nominal(), assumed_settings()), SEARCH.load()
-    best = best.sort_values("score").iloc[-1]
+    best = best.sort_values(["survives", "score"]).iloc[-1]
+    assert best["survives"] > 0.5 * best["shifts"]
     assert found.score == pytest.approx(best["score"], abs=1e-6)
     assert found.counts == {"traditional": 8, "improved": 0, "minima": 8}
-    failed = {name for name, value in found.margins.items() if value < -0.01}
+    failed = {name for name, value in found.margins.items() if value < -0.02}
     assert failed == {"arms_clear"}
     assert -0.06 < found.margins["arms_clear"]
 

@@ -19,7 +19,7 @@ from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from .. import demands
 from ..document import Layout, assumptions, text_counts
-from ..reading import KEPT, Case, nominal
+from ..reading import KEPT, Case
 
 #: Numbers of an arrangement are multiples of this [m].
 GRID = 0.01
@@ -46,14 +46,16 @@ _LIMITS = {
     "window_bar": (0.05, 0.15),
 }
 _SETTINGS = ("link_radius", "meeting_distance", "trial_perturbation", "trial_seed")
-#: Where the climbs begin, in the order of _LIMITS: the arms meet at End, or on their way; and a wide
-#: window that needs no avoiding by the master.
+#: Where the climbs begin, in the order of _LIMITS: the arms meet at End, or on their way; and a
+#: wide window that needs no avoiding by the master.
 STARTS = {
     "meeting at End": (-1.20, 3.13, -0.14, 2.83, 0.03, 0.28, 0.54, 1.00, 0.86, 0.10),
     "meeting on the way": (-1.19, 3.10, -0.16, 2.32, 0.26, 0.10, 0.52, 1.14, 0.63, 0.15),
     "narrow bars": (-1.16, 3.12, -0.11, 2.49, 0.15, 0.10, 0.57, 1.17, 0.69, 0.14),
     "wide window": (-1.15, 3.25, -0.45, 2.80, 0.15, 0.30, 0.70, 0.90, 1.10, 0.10),
 }
+#: Direction in which the window is passed, mainly along which the slave travels.
+NORMAL = "x"
 
 
 class Found(NamedTuple):
@@ -135,7 +137,8 @@ def survivors(case: Case, settings: Mapping[str, Any]) -> dict[str, bool]:
 
 def search_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """One climb."""
-    case = nominal(**dict(zip(_LIMITS, STARTS[settings["start"]], strict=True)))
+    places = dict(zip(_LIMITS, STARTS[settings["start"]], strict=True))
+    case = Case.of({**assumptions(*KEPT), "window_normal": NORMAL, **places})
     best = judged(case, settings)
     figures = everything = 0
     for step in np.exp(rng.uniform(log(STEP[0]), log(STEP[1]), ROUNDS)):
@@ -179,6 +182,7 @@ SEARCH = REGISTRY.keeps(
             "xue",
             (*KEPT, *_SETTINGS),
             starts=STARTS,
+            normal=NORMAL,
             rounds=ROUNDS,
             step=STEP,
             limits=_LIMITS,
