@@ -8,6 +8,7 @@ from .checks.link_clearance import (
 )
 from .descent.apf import plan_apf
 from .descent.batch import Batch, perturbed, plan_batch
+from .descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
 from .descent.certificate import Certificate, certify
 from .descent.compiled import plan_apf_compiled
 from .descent.termination import StopReason
@@ -73,6 +74,8 @@ __all__ = [
     "plan_apf",
     "plan_apf_compiled",
     "plan_batch",
+    "plan_cartesian_ik",
+    "plan_cartesian_ik_batch",
     "plan_file",
     "plan_master_slave",
     "posture",

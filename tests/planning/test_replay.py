@@ -80,12 +80,13 @@ def test_an_outcome_counts_its_runs():
     starts = perturbed(START, 0.1, 4, np.random.default_rng(0))
     made = problem(ARM, START, GOAL, around(), TRADITIONAL)
     runs = run_trials(ARM, starts, around(), TRADITIONAL)
-    found = outcome(made, runs, np.random.default_rng(0))
+    found = outcome(made, runs)
     assert found.runs == 4
     assert found.missed == int((~runs.reached).sum())
     assert found.held <= found.trapped
     assert found.steps_all == runs.steps.mean()
-    none = outcome(made, runs._replace(reason=np.full(4, "x", dtype=object)), None)
+    assert outcome(made, runs, at_goal=np.inf).trapped == 0
+    none = outcome(made, runs._replace(reason=np.full(4, "x", dtype=object)))
     assert none.missed == 4
     assert np.isnan(none.steps_reached)
 

@@ -59,4 +59,6 @@ def test_reasons_read_as_written(reason):
         "trapped",
         "goal-not-reachable-near-obstacle",
         "step-limit",
+        "no-posture",
+        "collides",
     }

@@ -14,7 +14,7 @@ from ..field.obstacles import Obstacles
 from ..settings import APFSettings
 from .compiled import empty_rows, rules_of, run
 from .outcome import refined, rescued
-from .problem import problem, require_clear
+from .problem import PlanningProblem, problem, require_clear
 from .termination import StopReason
 
 
@@ -74,6 +74,14 @@ def plan_batch(
     measures = np.empty((len(starts), 2))
     given = field_of(made), rules_of(made), made.switch_rules, starts, empty_rows(made)
     _run_all(*given, last, numbers, measures)
+    return batch_of(made, last, numbers, measures)
+
+
+def batch_of(
+    made: PlanningProblem, last: np.ndarray, numbers: np.ndarray, measures: np.ndarray
+) -> Batch:
+    """The batch of what a compiled loop left: last configurations (N, nq), reason, steps,
+    activations and arrivals (N, 4), clearance and gradient norm (N, 2)."""
     codes, steps, activations, arrivals = numbers.T
     clearance, gradient_norm = measures.T
     ended = [list(StopReason)[number] for number in codes]

@@ -16,10 +16,11 @@ from ....ledger.statistical_rules import Generally
 from ....tracking import memo
 from ....view.shares import shares_figure
 from ....view.style import BLACK, BLUE, WIDTH, house_style
+from ..document import Layout
 from ..motions import points_to_window, present, slave_undisturbed
 from ..outcomes import VARIANTS, variant_of
 from ..reading import POSITION_TOLERANCE, nominal
-from ..stored import choice, is_declared, lottery_table, mean_with_interval
+from ..stored import is_declared, mean_with_interval
 from ..studies.ablation import ABLATION, NAMED
 from ..studies.paths import PATHS
 from ..studies.trials import REPEATED
@@ -65,16 +66,12 @@ def paths_table() -> pd.DataFrame:
 )
 def virtual_point_escapes(assumed: Assumed) -> Result:
     """Runs trapped without the virtual point, and what becomes of them with it."""
-    switching = assumed["virtual_switching"]
-    table, with_it = (
-        (_ablation(), switching) if switching in _SWITCHED else (lottery_table(), "improved")
-    )
+    switching, table = assumed["virtual_switching"], _ablation()
+    with_it = switching if switching in _SWITCHED else "improved"
     gain = table["without_virtual_missed"] - table[f"{with_it}_missed"]
     trapped = table["without_virtual_trapped"]
     caught = trapped > 0
     mostly = (gain[caught] >= 0.5 * trapped[caught]).sum()
-    shown, lottery = _nominal_counts(), lottery_table()
-    acted = lottery["improved_used"] > 0
     return Result(
         obtained={
             "freed": {"count": int(mostly), "of": int(caught.sum())},
@@ -82,10 +79,9 @@ def virtual_point_escapes(assumed: Assumed) -> Result:
             "runs_trapped": int(trapped.sum()),
             "runs_gained": int(gain.sum()),
             "arrangements": len(table),
-            "acts": int(lottery["improved_used"].sum()),
-            "rescues": int(lottery["improved_rescued"].sum()),
-            "acts_in": Share.of(int(acted.sum()), len(lottery))._asdict(),
-            "nominal": shown,
+            "acts": int(table["improved_used"].sum()),
+            "rescues": int(table["improved_rescued"].sum()),
+            "nominal": _nominal_counts(),
         },
         caption=caption("claim_virtual_escapes", switching=switching.replace("_", " ")),
         alt="Bars with intervals: share of the trapped runs that the virtual point frees, by when "
@@ -275,14 +271,21 @@ def _interval(ax: Any, ends: np.ndarray, row: float) -> None:
 
 def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """For every measure that stays open, an arrangement of either kind."""
-    declared = is_declared(lottery_table().loc[differences.index])
+    table = paths_table().loc[differences.index]
+    declared = is_declared(table)
     witnesses = []
     for name, one in found.items():
         edge = 0.0 if name == "radius" else _threshold("gain")
         if one["low"] <= edge <= one["high"]:
             column = differences[name].where(declared)
             for k, verdict in ((column.idxmax(), "holds"), (column.idxmin(), "fails")):
-                witnesses.append(choice(int(k), verdict, **{name: float(column[k])}))
+                judged = {name: float(column[k])}
+                row = table.loc[k, list(Layout.names())]
+                values = {n: v.item() if isinstance(v, np.generic) else v for n, v in row.items()}
+                where = f"arrangement {k} of {PATHS.name}"
+                witnesses.append(
+                    {"choice": where, "verdict": verdict, "values": values, "judged": judged}
+                )
     return witnesses
 
 

@@ -25,7 +25,7 @@ from ..motions import (
 )
 from ..outcomes import VARIANTS
 from ..reading import Case, nominal
-from ..stored import choice, clear_share, is_declared, successful
+from ..stored import choice, clear_share, is_declared, lottery_table
 
 checks = partial(REGISTRY.checks, page="xue/truth")
 caption = captions(__file__)
@@ -54,7 +54,7 @@ def only_end_effectors(assumed: Assumed) -> Result:
         cores, apart = cores_of(replay, case.layout, floor), float(replay.apart().min())
         touching = 0.5 * smallest_cores(cores)["arms"] <= radius
         collide = apart > assumed["meeting_distance"] and touching
-    ends = successful()
+    ends = lottery_table()
     postures = (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum()
     shares = {pair: clear_share(radius, pair)._asdict() for pair in PAIRS}
     return Result(
@@ -76,9 +76,46 @@ def only_end_effectors(assumed: Assumed) -> Result:
     )
 
 
+@checks(
+    "xue.claim_tip_check_suffices",
+    rules=[
+        Bounded(
+            "refuting",
+            "arrangements in which the end effectors stay apart and other links of the arms touch",
+            high=0,
+        )
+    ],
+    samples=8,
+)
+def tips_speak_for_links(assumed: Assumed) -> Result:
+    """Counterexamples to the inference among the arrangements in which the figures hold."""
+    radius, table = assumed["link_radius"], lottery_table()
+    touch = 0.5 * table["cores_arms"] <= radius
+    far = table[touch & is_declared(table)]
+    worst = [] if far.empty else [far.loc[far["flanges_apart"].idxmax()]]
+    return Result(
+        obtained={
+            "refuting": int(touch.sum()),
+            "of": len(table),
+            "share": Share.of(touch.sum(), len(table))._asdict(),
+            "farthest_tips": None if not worst else float(worst[0]["flanges_apart"]),
+        },
+        caption=caption("claim_tip_check_suffices", radius=radius),
+        witnesses=[
+            choice(
+                int(row.name),
+                "fails",
+                flanges_apart=float(row["flanges_apart"]),
+                links_touch_at_radius=float(0.5 * row["cores_arms"]),
+            )
+            for row in worst
+        ],
+    )
+
+
 def arms_witnesses(radius: float) -> list[dict[str, Any]]:
     """Two declared arrangements in which the end effectors stay apart: arms clear, and not."""
-    table = successful()
+    table = lottery_table()
     table = table[is_declared(table)]
     clear = 0.5 * table["cores_arms"] > radius
     return [

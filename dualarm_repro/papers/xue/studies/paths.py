@@ -1,4 +1,4 @@
-"""What the motions of both methods are worth, over arrangements of the lottery.
+"""What the motions of both methods are worth, over random arrangements in which Fig. 9 holds.
 
 One run each from the unperturbed start: length and bending of the path of the end effector, how
 thick the links may be, postures at which the field is looked at; whether the goal angles are
@@ -8,6 +8,7 @@ reached; and how far from its goal the end effector ever is, which (9) turns int
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -16,27 +17,28 @@ from ....ledger import REGISTRY, Study
 from ....ledger.assumptions import Chosen
 from ....planning.checks.counted_field import counted_descent
 from ....planning.checks.path_measures import bending
+from ....planning.descent.compiled import plan_apf_compiled
 from ....planning.plan import Plan
-from ....planning.trials.runs import attempt
 from .. import motions
-from ..document import Layout
-from ..outcomes import DESCENTS, VARIANTS
-from ..reading import KEPT, Case, nominal
-from .lottery import lottery_table
+from ..document import assumptions
+from ..outcomes import DESCENTS, READINGS, VARIANTS, variant_of
+from ..reading import KEPT, Case
+from .lottery import DRAWN_WITH, random_case
 
-ARRANGEMENTS = 150
-METHODS = ("traditional", "five_points", "improved")
+ARRANGEMENTS = 100
+METHODS = (*map(variant_of, READINGS), "improved")
+#: Postures that a point followed by inverse kinematics looks at in a step, at least: that of the
+#: field, and the nearest one, which is looked at for collisions.
+FOLLOWED = 2
 #: Between two samples of the path of the end effector whose bending is measured [m].
 SPACING = 0.02
 
 
 def paths_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    """Every method in one arrangement of the lottery; nothing is drawn."""
-    row = lottery_table().iloc[settings["layout"]]
-    layout = Layout(**{name: _plain(row[name]) for name in Layout.names()})
-    case = nominal()._replace(layout=layout)
-    master = motions.present(motions.master_plan(layout, case.planner), "plan of the master")
-    found = {"master_rise": farther_later(master.tcp, master.tcp[-1])}
+    """Every method in one random arrangement."""
+    case = random_case(settings["meeting_distance"], rng)[0]
+    master = motions.present(motions.master_plan(case.layout, case.planner), "plan of the master")
+    found = {**asdict(case.layout), "master_rise": farther_later(master.tcp, master.tcp[-1])}
     for name in METHODS:
         found |= {f"{name}_{key}": value for key, value in path_row(case, name).items()}
     return found
@@ -44,8 +46,8 @@ def paths_cell(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[st
 
 def path_row(case: Case, name: str) -> dict[str, Any]:
     """One run of a method; of a path that does not arrive only its end counts."""
-    made = VARIANTS[name].problem(case)
-    plan = attempt(made.placed, made.start, made.obstacles, made.settings)
+    variant = VARIANTS[name]
+    made, plan = variant.problem(case), variant.plan(case)
     if plan is None:
         return {"arrives": False}
     row = {
@@ -56,13 +58,14 @@ def path_row(case: Case, name: str) -> dict[str, Any]:
     }
     if not plan.reached:
         return row
+    descends = variant.single is plan_apf_compiled
     return row | {
         "steps": plan.steps,
         "tool_path": plan.tcp_length,
         "joint_path": plan.length,
         "bending": bending(plan.tcp, SPACING),
         "radius": link_radius(case, plan),
-        "postures": counted_descent(made)[1],
+        "postures": counted_descent(made)[1] if descends else FOLLOWED * plan.steps,
     }
 
 
@@ -79,12 +82,8 @@ def link_radius(case: Case, plan: Plan) -> float:
     return min(smallest["slave_window"], 0.5 * smallest["arms"])
 
 
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
-
-
 def _cells() -> list[dict[str, Any]]:
-    return [{"layout": k} for k in range(ARRANGEMENTS)]
+    return [{"layout": k, **assumptions(*DRAWN_WITH)} for k in range(ARRANGEMENTS)]
 
 
 PATHS = REGISTRY.keeps(
@@ -95,6 +94,13 @@ PATHS = REGISTRY.keeps(
         compute=paths_cell,
         compared=DESCENTS,
         seed=20200349,
-        settings=Chosen("xue", KEPT, ranges=True, arrangements=ARRANGEMENTS, spacing=SPACING),
+        settings=Chosen(
+            "xue",
+            (*KEPT, *DRAWN_WITH),
+            ranges=True,
+            arrangements=ARRANGEMENTS,
+            spacing=SPACING,
+            followed=FOLLOWED,
+        ),
     )
 )
