@@ -115,7 +115,7 @@ def slave_collides(assumed: Assumed) -> Result:
     layout, (deepest, _) = Layout.of(assumed), replays.contacts_of(replay)
     step, middle = replays.meeting(replay)
     tcp = replay.plan.tcp
-    contacts = {f"in a bar, step {deepest}": tcp[deepest], f"meeting, step {step}": middle}
+    contacts = {f"hit, step {deepest}": tcp[deepest], f"meeting, {step}": middle}
     how: dict[str, Any] = {"instants": [step], **_VIEW}
     title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
