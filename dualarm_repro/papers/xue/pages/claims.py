@@ -233,15 +233,23 @@ def gains_of(old: str) -> pd.DataFrame:
 
 
 def _told(name: str, one: dict[str, Any]) -> str:
-    """A mean gain with its interval in words; a logarithm as the share that is saved."""
-    ends = [one["value"], one["low"], one["high"]]
+    """A mean gain with its interval in words; a logarithm as the share that is saved or added."""
+    better, worse = {
+        "tool_path": ("makes paths shorter", "makes paths longer"),
+        "bending": ("bends them less", "bends them more"),
+        "radius": ("leaves room for thicker links", "leaves room for thinner links"),
+        "postures": ("looks at fewer postures", "looks at more postures"),
+    }[name]
+    sign = 1.0 if one["value"] >= 0.0 else -1.0
+    ends = sorted(sign * one[end] for end in ("low", "high"))
     if name == "radius":
-        value, low, high = (f"{1e3 * end:.1f}" for end in ends)
-        return f"leaves room for links thicker by {value} mm ({low} to {high})"
-    words = {"tool_path": "makes paths shorter by", "bending": "bends them less by",
-             "postures": "looks at fewer postures by"}[name]  # fmt: skip
-    value, low, high = (f"{-100 * np.expm1(-end):.0f}" for end in ends)
-    return f"{words} {value} % ({low} to {high})"
+        value, low, high = (f"{1e3 * end:.1f}" for end in (sign * one["value"], *ends))
+        unit = "mm"
+    else:
+        shares = (-100 * sign * np.expm1(-sign * end) for end in (sign * one["value"], *ends))
+        value, low, high = (f"{share:.0f}" for share in shares)
+        unit = "%"
+    return f"{better if sign > 0 else worse} by {value} {unit} ({low} to {high})"
 
 
 def gains_figure(found: dict[str, dict[str, Any]]) -> Any:
