@@ -28,8 +28,10 @@ caption = captions(__file__)
 
 @memo()
 def planners_table() -> pd.DataFrame:
-    """One row per scene: what each planner comes to."""
-    return PLANNERS.load()
+    """One row per scene: what each planner comes to; nothing of one that never arrives."""
+    table = PLANNERS.load()
+    found = [f"{name}_{what}" for name in METHODS for what in ("free", "clearance", "tool_path")]
+    return table.reindex(columns=list(dict.fromkeys([*table, *found])))
 
 
 @checks(

@@ -164,20 +164,25 @@ def _postures(scene: Scene, made: CoordinatedPlan[Any], tasks: Mapping[str, Task
 def _in_turn(
     scene: Scene, start: np.ndarray, seed: int
 ) -> tuple[dict[str, JointPath] | None, Scene, int]:
-    """The master while the slave waits at its start, then the slave past the master at its goal."""
-    master, slave = (arm for arm in scene.arms if isinstance(arm, Posed))
-    waiting = scene.replaying("slave", _at_rest(start))
-    first = plan_rrt_connect(waiting, master.start, master.goal, seed, CHECKS)
-    if first.path is None:
-        return None, scene, first.checks
-    parked = scene.replaying("master", _at_rest(master.goal))
-    second = plan_rrt_connect(parked, start, slave.goal, seed, CHECKS - first.checks)
-    checks = first.checks + second.checks
-    if second.path is None:
-        return None, scene, checks
-    ends = len(first.path) - 1
-    later = ends + np.arange(len(second.path), dtype=float)
-    return {"master": JointPath(first.path), "slave": JointPath(second.path, later)}, scene, checks
+    """One arm while the other waits at its start, then the other past it at its goal; the slave
+    goes first where the master cannot."""
+    arms = {arm.name: arm for arm in scene.arms if isinstance(arm, Posed)}
+    begins, checks = {"master": arms["master"].start, "slave": start}, 0
+    for first, second in (("master", "slave"), ("slave", "master")):
+        waiting = scene.replaying(second, _at_rest(begins[second]))
+        one = plan_rrt_connect(waiting, begins[first], arms[first].goal, seed, CHECKS // 2)
+        checks += one.checks
+        if one.path is None:
+            continue
+        parked = scene.replaying(first, _at_rest(arms[first].goal))
+        left = CHECKS // 2 - one.checks
+        two = plan_rrt_connect(parked, begins[second], arms[second].goal, seed, left)
+        checks += two.checks
+        if two.path is not None:
+            later = len(one.path) - 1 + np.arange(len(two.path), dtype=float)
+            paths = {first: JointPath(one.path), second: JointPath(two.path, later)}
+            return paths, scene, checks
+    return None, scene, checks
 
 
 def _both(
