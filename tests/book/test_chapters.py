@@ -31,6 +31,7 @@ METHODS = [
     ("xue", "master as a moving obstacle", "with_arm"),
     ("xue", "ten runs from other starts", "run_trials"),
     ("xue", "lottery of arrangements", "random_case"),
+    ("xue", "a point that inverse kinematics follows", "plan_cartesian_ik"),
     ("xue", "distances of whole links", "link_cores"),
     ("qiu", "link transform by sympy", "rot_ccw_axis3"),
     ("qiu", "the chain in Pinocchio", "forwardKinematics"),
