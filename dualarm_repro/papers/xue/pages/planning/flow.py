@@ -117,7 +117,7 @@ def _states_of(run: tuple[Plan, ...]) -> list[str]:
     route = ["begin", *_route("master", run[0])]
     if len(run) == 2:
         route += ["master's path becomes a moving obstacle", *_route("slave", run[1])]
-        route.append(_END[run[1].reason])
+        route.append(_END[StopReason(run[1].reason)])
     return route
 
 
