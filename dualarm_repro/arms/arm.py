@@ -266,14 +266,13 @@ class Arm:
         return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]
 
     @cached_property
-    def wrist_geometry(self) -> WristGeometry:
-        """Constants of the closed-form inverse; UnsupportedArmError where the arm has none."""
+    def _wrist_geometry(self) -> WristGeometry:
         return wrist_geometry(self.name, self.chain)
 
     def _solve(
         self, poses: np.ndarray, reference: ArrayLike | None, within_limits: bool
     ) -> np.ndarray:
-        geometry = self.wrist_geometry
+        geometry = self._wrist_geometry
         near = 0.5 * (self.lower + self.upper)
         if reference is not None:
             near = self.configurations(reference)

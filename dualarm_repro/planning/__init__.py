@@ -11,6 +11,7 @@ from .descent.batch import Batch, perturbed, plan_batch
 from .descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
 from .descent.certificate import Certificate, certify
 from .descent.compiled import plan_apf_compiled
+from .descent.follow_reason import FollowReason
 from .descent.termination import StopReason
 from .field.control_points import ControlPoints, control_points
 from .field.obstacles import Obstacles, obstacles_of
@@ -43,6 +44,7 @@ __all__ = [
     "Combination",
     "ControlPoints",
     "CoordinatedPlan",
+    "FollowReason",
     "JointAttraction",
     "LinkClearance",
     "Method",

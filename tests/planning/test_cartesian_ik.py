@@ -10,7 +10,7 @@ from window_scene import FIXED, GOAL, SEARCH, SLAVE, START, TRADITIONAL, around
 from dualarm_repro.arms import load_arm
 from dualarm_repro.differences import central_differences
 from dualarm_repro.errors import InputError, UnsupportedArmError
-from dualarm_repro.planning import StopReason, obstacles_of
+from dualarm_repro.planning import FollowReason, StopReason, obstacles_of
 from dualarm_repro.planning.descent import cartesian_ik, cartesian_kernels
 from dualarm_repro.planning.descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
 from dualarm_repro.planning.field.control_points import end_effector
@@ -81,7 +81,7 @@ def test_an_elbow_that_meets_a_ball_ends_the_motion():
     half = free.path[free.steps // 2]
     wrist = SLAVE.arm.joint_positions(half)[2] + SLAVE.placement.translation
     ball = obstacles_of(Scene([SLAVE], {"ball": Sphere(wrist, 0.02)}))
-    assert plan_cartesian_ik(SLAVE, START, GOAL, ball, LOOKED_AT).reason is StopReason.COLLIDES
+    assert plan_cartesian_ik(SLAVE, START, GOAL, ball, LOOKED_AT).reason is FollowReason.COLLIDES
     assert plan_cartesian_ik(SLAVE, START, GOAL, ball, TRADITIONAL).reached
 
 
@@ -92,7 +92,7 @@ def test_beside_a_singular_wrist_no_posture_continues_the_motion():
         np.array([0.3, -0.5, 0.3, 0.03, -0.4, 0.0]),
     )
     plan = plan_cartesian_ik(SLAVE, here, there, NOTHING, LOOKED_AT)
-    assert plan.reason is StopReason.NO_POSTURE
+    assert plan.reason is FollowReason.NO_POSTURE
 
 
 def test_what_cannot_be_planned_is_refused():

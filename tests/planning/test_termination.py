@@ -59,6 +59,4 @@ def test_reasons_read_as_written(reason):
         "trapped",
         "goal-not-reachable-near-obstacle",
         "step-limit",
-        "no-posture",
-        "collides",
     }

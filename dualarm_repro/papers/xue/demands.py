@@ -17,17 +17,15 @@ from typing import Any
 import numpy as np
 
 from ...planning.field.control_points import end_effector
-from ...planning.plan import Plan
 from ...planning.trials.encounter import inside_opening
 from ...planning.trials.held import held
 from ...planning.trials.replay import Replay
-from ...planning.trials.runs import attempt
 from ...planning.trials.stuck import stationary
 from ...scene import facing
 from . import motions
 from .document import Layout, gains
 from .outcomes import TRIALS, VARIANTS, run_variants, starts
-from .reading import Case, improved
+from .reading import Case
 
 #: Demands, metres: depth at which the undisturbed slave enters a bar, distance at which the tips
 #: meet, and distance of Start and End from the planes of the edges of the bars.
@@ -103,7 +101,7 @@ def _margins(case: Case, radius: float, meeting: float, strict: bool) -> Iterato
     yield {"meets": near - apart_on_the_way(replay)}
     plan = motions.slave_plan(case)
     avoiding = motions.replay_of(case, plan)
-    alone = motions.replay_of(case, slave_without_master(case))
+    alone = motions.replay_of(case, motions.slave_without_master(case))
     if plan is None or avoiding is None or alone is None or not plan.reached:
         yield NO_SLAVE
         return
@@ -120,13 +118,6 @@ def _margins(case: Case, radius: float, meeting: float, strict: bool) -> Iterato
         "master_clear": cores["master_window"] - radius,
         "arms_clear": 0.5 * cores["arms"] - radius,
     }
-
-
-def slave_without_master(case: Case) -> Plan | None:
-    """The slave past the window by the improved method, with the master unknown to it."""
-    placed, _ = motions.slave_task(case)
-    settings = improved(case.planner, case.layout.window_centre, placed.goal)
-    return attempt(placed, placed.start, motions.window_obstacles(case.layout), settings)
 
 
 def apart_on_the_way(replay: Replay) -> float:

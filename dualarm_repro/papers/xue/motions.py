@@ -128,6 +128,14 @@ def slave_plan(case: Case) -> Plan | None:
 
 
 @memo(512)
+def slave_without_master(case: Case) -> Plan | None:
+    """The slave past the window by the improved method, with the master unknown to it."""
+    placed, _ = slave_task(case)
+    settings = improved(case.planner, case.layout.window_centre, placed.goal)
+    return attempt(placed, placed.start, window_obstacles(case.layout), settings)
+
+
+@memo(512)
 def window_obstacles(layout: Layout) -> Obstacles:
     """The window alone."""
     return obstacles_of(Scene([placed_master(layout)], {"window": layout.window()}))

@@ -19,6 +19,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ...arms.wrist_geometry import wrist_geometry
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ..field.control_points import control_points
@@ -29,9 +30,9 @@ from ..settings import APFSettings
 from .batch import Batch, batch_of
 from .cartesian_kernels import Follower, follow
 from .compiled import Rows, empty_rows, rules_of
+from .follow_reason import REASONS
 from .outcome import finished
 from .problem import PlanningProblem, problem, require_clear
-from .termination import StopReason
 
 
 def plan_cartesian_ik(
@@ -63,7 +64,7 @@ def plan_cartesian_ik(
     turn = _turns(made, made.start[np.newaxis])[0]
     end = follow(_follower(made, checked), field_of(made), rules_of(made), made.start, turn, rows)
     kept = Rows(*(part[: end.steps + 1].copy() for part in rows))[:-1]  # without the potential
-    reason = list(StopReason)[end.reason]
+    reason = REASONS[end.reason]
     return finished(made, Record(*kept, reason, 0, 0, perf_counter() - began))
 
 
@@ -121,7 +122,8 @@ def _follower(made: PlanningProblem, checked: PlanningProblem) -> Follower:
         base=np.eye(3, 4), joint=np.zeros(1, dtype=np.int64), local=np.zeros((1, 2, 3))
     )
     goal = made.placed.placement.rotation @ made.placed.arm.fk(made.goal)[:3, :3]
-    return Follower(point, field_of(checked), made.placed.arm.wrist_geometry, goal)
+    arm = made.placed.arm
+    return Follower(point, field_of(checked), wrist_geometry(arm.name, arm.chain), goal)
 
 
 def _turns(made: PlanningProblem, starts: np.ndarray) -> np.ndarray:

@@ -15,10 +15,12 @@ from ..field.field_kernels import Field, barrier, evaluate, repulsion, workspace
 from ..field.nearest_kernels import witness
 from ..settings import UpdateRule
 from .compiled import REACHED, STEP_LIMIT, TRAPPED, End, distance
-from .termination import StopReason, is_stuck, within
+from .follow_reason import REASONS, FollowReason
+from .termination import is_stuck, within
 from .updates import ROUNDING
 
-NO_POSTURE, COLLIDES = code(StopReason.NO_POSTURE), code(StopReason.COLLIDES)
+NO_POSTURE = REASONS.index(FollowReason.NO_POSTURE)
+COLLIDES = REASONS.index(FollowReason.COLLIDES)
 _GRADIENT, _SEARCH = code(UpdateRule.GRADIENT), code(UpdateRule.NEIGHBOUR_SEARCH)
 #: Change of a joint from one point to the next [rad] beyond which a posture is not a continuation.
 JUMP = 0.5

@@ -16,17 +16,13 @@ _BLOCK_MEANS = code(StuckRule.BLOCK_MEANS)
 class StopReason(StrEnum):
     """Why a plan ended.
 
-    ``NEAR_OBSTACLE``: the arm rests close to its goal, at which an obstacle repels it. Where the
-    arm is made to follow a point, ``NO_POSTURE``: none continues the motion to the next point, and
-    ``COLLIDES``: those that do touch an obstacle.
+    ``NEAR_OBSTACLE``: the arm rests close to its goal, at which an obstacle repels it.
     """
 
     REACHED = "reached"
     TRAPPED = "trapped"
     NEAR_OBSTACLE = "goal-not-reachable-near-obstacle"
     STEP_LIMIT = "step-limit"
-    NO_POSTURE = "no-posture"
-    COLLIDES = "collides"
 
 
 @kernel

@@ -29,7 +29,7 @@ class Runs(NamedTuple):
 
     Attributes
     ----------
-    reason : ndarray (N,) of StopReason, or TOUCHES
+    reason : ndarray (N,) of StopReason or FollowReason, or TOUCHES
     steps : ndarray (N,) of int
     last : ndarray (N, nq)
         Configurations at the end [rad].

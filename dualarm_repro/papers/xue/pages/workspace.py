@@ -106,7 +106,7 @@ def master_cloud(assumed: Assumed) -> Result:
 def _ranges_with_the_start(upper_arm: float) -> list[str]:
     """Joint ranges whose cloud reaches down to the printed start, and which allow its angles."""
     found = []
-    for name in REGISTRY.declared("xue.joint_ranges", "choices").choices:
+    for name in REGISTRY.declared("xue.joint_ranges", "choices").choices or ():
         arm = arm_in_use(str(name), upper_arm)
         lowest = extents(cloud(arm, workspace_points())).lower[2]
         if arm.within_limits(master_start()) and lowest <= arm.fk(master_start())[2, 3]:

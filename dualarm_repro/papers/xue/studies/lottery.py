@@ -24,7 +24,7 @@ from ..document import Layout, assumptions, slave_end, slave_start
 from ..outcomes import DESCENTS, READINGS, TRIALS, VARIANTS, clear_starts, outcomes, variant_of
 from ..reading import KEPT, Case, nominal
 
-LAYOUTS = 1600
+LAYOUTS = 1000
 #: Ranges of the uniform draws, metres; the rest of an arrangement is as assumed.
 RANGES: dict[str, Any] = {
     "master_about_meeting": 0.3,

@@ -25,6 +25,7 @@ from ...motions import (
     replay_of,
     slave_plan,
     slave_undisturbed,
+    slave_without_master,
 )
 from ...reading import Case, PlannerChoice
 from ..scene import stage
@@ -57,6 +58,11 @@ _AVOIDING_RULES = (
         "beyond_meeting",
         "distance of the end effectors until both rest, less that of a meeting [m]",
         low=1e-6,
+    ),
+    Bounded(
+        "beyond_meeting_unaware",
+        "the same for a slave that does not know of the master [m]",
+        high=0,
     ),
 )
 
@@ -237,8 +243,12 @@ def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
 def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
     """The improved slave beside the master, and how they meet until both rest."""
     case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_plan(case))
-    return replay, _meeting_numbers(replay, meeting, moving=False)
+    replay, alone = replay_of(case, slave_plan(case)), None
+    if replay is not None:
+        alone = replay_of(case, slave_without_master(case))
+    unaware = None if alone is None else float(alone.apart().min() - meeting)
+    found = _meeting_numbers(replay, meeting, moving=False)
+    return replay, found | {"beyond_meeting_unaware": unaware}
 
 
 def _past_window(assumed: Assumed) -> tuple[tuple[Plan, Plan] | None, dict[str, Any]]:
