@@ -131,6 +131,15 @@ def test_nominal_arrangement_fails_where_its_climb_says(registry):
     assert -0.06 < found.margins["arms_clear"]
 
 
+def test_no_climb_meets_every_demand(registry):
+    """What the page of the scene says of the climbs: arms that keep apart are missing in each."""
+    climbs = SEARCH.load()
+    assert climbs["everything_holds"].sum() == climbs["figures_hold"].sum() == 0
+    assert (climbs["margin_arms_clear"] < 0.0).all()
+    assert (climbs["count_minima"] == climbs["count_traditional"]).all()
+    assert climbs["evaluations"].sum() >= 5000
+
+
 def test_a_demand_is_missed_where_its_fact_is_taken_away(registry):
     case = nominal()
     facts = assumption("link_radius"), assumption("meeting_distance")
