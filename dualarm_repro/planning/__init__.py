@@ -8,8 +8,10 @@ from .checks.link_clearance import (
 )
 from .descent.apf import plan_apf
 from .descent.batch import Batch, perturbed, plan_batch
+from .descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
 from .descent.certificate import Certificate, certify
 from .descent.compiled import plan_apf_compiled
+from .descent.follow_reason import FollowReason
 from .descent.termination import StopReason
 from .field.control_points import ControlPoints, control_points
 from .field.obstacles import Obstacles, obstacles_of
@@ -42,6 +44,7 @@ __all__ = [
     "Combination",
     "ControlPoints",
     "CoordinatedPlan",
+    "FollowReason",
     "JointAttraction",
     "LinkClearance",
     "Method",
@@ -73,6 +76,8 @@ __all__ = [
     "plan_apf",
     "plan_apf_compiled",
     "plan_batch",
+    "plan_cartesian_ik",
+    "plan_cartesian_ik_batch",
     "plan_file",
     "plan_master_slave",
     "posture",

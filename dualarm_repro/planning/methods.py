@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -12,7 +13,9 @@ from ..errors import InputError, UnknownNameError
 from ..settings import Settings
 from .checks.link_clearance import require_links_clear
 from .defaults import default_settings, default_two_arm_settings
-from .master_slave import CoordinatedPlan, Task, plan_master_slave
+from .descent.cartesian_ik import plan_cartesian_ik
+from .descent.compiled import plan_apf_compiled
+from .master_slave import CoordinatedPlan, Planner, Task, plan_master_slave
 from .plan import Plan
 from .search.bidirectional_arms import (
     SplicedPlan,
@@ -82,13 +85,18 @@ def _attraction_only(settings: APFSettings) -> APFSettings:
     return settings.changed(repulsion=None, virtual_point=None)
 
 
-def _in_turn(given: TaskSet[APFSettings], tasks: dict[str, Task[APFSettings]]) -> AnyPlan:
+def _in_turn(
+    given: TaskSet[APFSettings],
+    tasks: dict[str, Task[APFSettings]],
+    planner: Planner = plan_apf_compiled,
+) -> AnyPlan:
     return plan_master_slave(
         given.scene,
         tasks,
         master_points=given.master_points,
         radius=given.radius,
         leave_out=given.leave_out,
+        planner=planner,
     )
 
 
@@ -126,6 +134,14 @@ METHODS: dict[str, AnyMethod] = {
             "attraction of the end effector by position, repulsion of all control points",
             _traditional,
             *_APF,
+        ),
+        Method(
+            "apf-cartesian-ik",
+            "the end effector as a point in the field; inverse kinematics and a look at every step",
+            _traditional,
+            APFSettings,
+            default_settings,
+            partial(_in_turn, planner=plan_cartesian_ik),
         ),
         Method(
             "attraction-only",

@@ -11,6 +11,7 @@ from ..scene.bodies import PlacedArm
 from ..scene.moving import JointPath
 from .arm_path import ArmPath
 from .descent.certificate import Certificate
+from .descent.follow_reason import FollowReason
 from .descent.termination import StopReason
 
 
@@ -24,7 +25,7 @@ class Record:
     virtual: np.ndarray
     clearance: np.ndarray
     active: np.ndarray
-    reason: StopReason
+    reason: StopReason | FollowReason
     activations: int
     arrivals: int
     wall_time: float
@@ -53,7 +54,7 @@ class Plan(Record, ArmPath):
         Whether the virtual point acted in the step taken from here.
     point_names, obstacle_names : tuple of str
         Of the control points and of the shapes the planner knew.
-    reason : StopReason
+    reason : StopReason or FollowReason
     certificate : Certificate or None
         None if the goal is reached.
     activations, arrivals : int

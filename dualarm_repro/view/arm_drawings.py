@@ -51,11 +51,16 @@ def dimension_drawing(
     return figure
 
 
-def frames_figure(frames: np.ndarray, length: float) -> Any:
+def frames_figure(
+    frames: np.ndarray,
+    length: float,
+    spans: Mapping[str, tuple[np.ndarray, np.ndarray]] | None = None,
+) -> Any:
     """Frames 0, 1, ... (N, 4, 4) as triads on the skeleton of an arm.
 
     The skeleton follows the offsets along z and x of the tables. Axes that coincide share one label
-    ("z0 z1").
+    ("z0 z1"). Pieces of the skeleton may be named, as ``spans`` from point to point; every second
+    one is darker, so that pieces in one line can be told apart.
     """
     axes: dict[tuple[float, ...], list[str]] = {}
     for number, frame in enumerate(frames):
@@ -65,7 +70,9 @@ def frames_figure(frames: np.ndarray, length: float) -> Any:
     with house_style():
         figure, ax = axes_3d(6.8, 6.4, elev=20, azim=-52)
         ax.computed_zorder = False
-        ax.plot(*_links(frames).T, "-", color="0.6", lw=5, zorder=1)
+        ax.plot(*_links(frames).T, "-", color="0.7", lw=5, zorder=1)
+        for piece in list((spans or {}).values())[::2]:
+            ax.plot(*np.array(piece).T, "-", color="0.45", lw=5, zorder=1.5, solid_capstyle="butt")
         ax.plot(*frames[:, :3, 3].T, "o", color="0.3", ms=6, zorder=2)
         named = []
         for place, names in axes.items():
@@ -77,6 +84,10 @@ def frames_figure(frames: np.ndarray, length: float) -> Any:
         ax.set_ylim(middle - 2 * length, middle + 2 * length)
         same_scale(ax)
         texts = [name_point(ax, at, name, (0, 0), color=c, weight="bold") for at, name, c in named]
+        texts += [
+            name_point(ax, 0.5 * (a + b), name, (0, -14) if abs(b - a)[0] > 1e-6 else (-40, 0))
+            for name, (a, b) in (spans or {}).items()
+        ]
         push_apart(figure, texts, 0.5)
     return figure
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from ..planning.field.control_points import end_effector
 from ..planning.plan import Plan
 from ..planning.trials.replay import Replay
 from ..scene import Box, PlacedArm
+from .link_bodies import Body
 from .scene3d import Scene3D
 from .style import MASTER, SLAVE
 from .tracks import Track
@@ -27,15 +28,37 @@ def replay_figure(
     bars: Iterable[Box],
     marks: Mapping[str, np.ndarray],
     contacts: Mapping[str, np.ndarray] | None = None,
+    instants: Sequence[int] = (),
     **how: Any,
 ) -> Any:
-    """Tracks of both end effectors around boxes, with named points and, if given, contacts."""
+    """Tracks of both end effectors around boxes, with named points and, if given, contacts.
+
+    Both arms are drawn as bodies at the ``instants``, steps of the replay.
+    """
     points = end_effector(replay.other, replay.track.configurations)
     tracks = [
         Track(replay.other.name, points, MASTER, "--"),
         Track(replay.plan.placed.name, replay.plan.tcp, SLAVE),
     ]
-    return view(bars, tracks, marks, *([] if contacts is None else [contacts]), **how)
+    bodies = [body for step in instants for body in bodies_at(replay, step)]
+    further = [] if contacts is None else [contacts]
+    return view(bars, tracks, marks, *further, bodies=bodies, **how)
+
+
+def bodies_at(replay: Replay, step: int) -> tuple[Body, Body]:
+    """Both arms at one instant."""
+    mine, plan = replay.plan.placed, replay.plan
+    other = replay.track.at(np.array([float(step)]))[0]
+    own = plan.path[min(step, plan.steps)]
+    return Body(replay.other, other, MASTER, step), Body(mine, own, SLAVE, step)
+
+
+def meeting(replay: Replay) -> tuple[int, np.ndarray]:
+    """The step at which the end effectors come nearest while the planned one moves, and the middle
+    between them there (3,) [m]."""
+    _, step = contacts_of(replay)
+    other = end_effector(replay.other, replay.track.at(np.array([float(step)])))[0]
+    return step, 0.5 * (other + replay.plan.tcp[step])
 
 
 def contacts_of(replay: Replay) -> tuple[int, int]:

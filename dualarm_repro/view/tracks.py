@@ -13,6 +13,7 @@ from scipy.spatial import ConvexHull
 
 from ..scene import Box
 from .labels import name_ends, name_points
+from .link_bodies import Body, draw_flat, draw_in_space
 from .style import (
     BLACK,
     ORANGE,
@@ -48,12 +49,14 @@ def tracks_figure(
     marks: Mapping[str, np.ndarray],
     contacts: Mapping[str, np.ndarray] | None = None,
     near: float = np.inf,
+    bodies: Sequence[Body] = (),
     **view: Unpack[View],
 ) -> Any:
     """Bars, tracks and named points in space and from two sides; circles where something is hit.
 
     Of the tracks the part within ``near`` of the middle of the named points is drawn [m]. Dots mark
-    equal times, and a line the way from a track to the nearest bar.
+    equal times, and a line the way from a track to the nearest bar. Arms are drawn as ``bodies`` at
+    some instants, whose numbers stand at all tracks.
     """
     middle = np.mean(list(marks.values()), axis=0)
     with house_style():
@@ -72,15 +75,18 @@ def tracks_figure(
             shown = track.points[np.linalg.norm(track.points - middle, axis=1) <= near]
             space.plot(*shown.T, track.style, color=track.color, lw=2, label=track.name, zorder=3)
         _marks(space, marks, contacts or {}, size=45)
+        for body in bodies:
+            draw_in_space(space, body)
         same_scale(space, zoom=1.1)
         floor = space.get_zlim()[0]
+        _shadows(space, tracks, middle, near, floor)
         for point in marks.values():
             foot = np.array([*point[:2], floor])
             space.plot(*np.array([point, foot]).T, ":", color="0.5", lw=0.9, zorder=2)
             space.plot(*foot, "x", color="0.5", ms=4, zorder=2)
         space.set_zlim(floor, space.get_zlim()[1])
         sides = [figure.add_subplot(grid[row, 1]) for row in range(len(_VIEWS))]
-        told = [_side(ax, name, bars, tracks, marks, contacts or {})
+        told = [_side(ax, name, bars, tracks, marks, contacts or {}, bodies)
                 for ax, name in zip(sides, _VIEWS, strict=True)]  # fmt: skip
         if tracks:
             figure.legend(handles=_handles(tracks), loc="outside upper left", ncols=4)
@@ -89,13 +95,26 @@ def tracks_figure(
     return figure
 
 
+def _shadows(
+    space: Any, tracks: Sequence[Track], middle: np.ndarray, near: float, floor: float
+) -> None:
+    """Shadows of the tracks on the floor of a drawing in space, so that depth can be read."""
+    for track in tracks:
+        shown = track.points[np.linalg.norm(track.points - middle, axis=1) <= near]
+        ground = np.full(len(shown), floor)
+        space.plot(*shown[:, :2].T, ground, color=track.color, lw=1.2, alpha=0.3, zorder=0)
+
+
 def top_view_figure(
-    bars: Sequence[Box], tracks: Sequence[Track], marks: Mapping[str, np.ndarray]
+    bars: Sequence[Box],
+    tracks: Sequence[Track],
+    marks: Mapping[str, np.ndarray],
+    bodies: Sequence[Body] = (),
 ) -> Any:
-    """Bars, tracks and named points around the bars, seen along -z."""
+    """Bars, tracks, named points and arms around the bars, seen along -z."""
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 5.4))
-        told = _side(ax, "from above", bars, tracks, marks, {})
+        told = _side(ax, "from above", bars, tracks, marks, {}, bodies)
         figure.legend(handles=_handles(tracks), loc="outside upper left", ncols=4)
         name_points(ax, told)
     return figure
@@ -132,6 +151,7 @@ def _side(
     tracks: Sequence[Track],
     marks: Mapping[str, np.ndarray],
     contacts: Mapping[str, np.ndarray],
+    bodies: Sequence[Body] = (),
 ) -> dict[str, np.ndarray]:
     """What happens around the bars, seen from one side; what is to be named there."""
     pair = list(_VIEWS[name])
@@ -154,13 +174,33 @@ def _side(
     ax.set(xlabel=f"{'xyz'[pair[0]]} [m]", ylabel=f"{'xyz'[pair[1]]} [m]", aspect="equal",
            xlim=(low[0], high[0]), ylim=(low[1], high[1]))  # fmt: skip
     ax.set_title(name)
+    for body in bodies:
+        draw_flat(ax, body, pair)
     # Seen along x the points lie close together; their signs are explained from above.
     told = {**marks, **contacts} if name == "from above" else {}
     named = {n: p[pair] for n, p in told.items()}
     named = {n: p for n, p in named.items() if (p > low).all() and (p < high).all()}
     gaps = {} if contacts else _gaps(ax, bars, tracks, pair)
-    size = {} if tracks or pair != [1, 2] else _opening(ax, bars)
-    return {**named, **gaps, **size}
+    size = _opening(ax, bars) if pair == [1, 2] and not contacts else {}
+    times = _times(ax, tracks, bodies, pair) if name == "from above" else {}
+    inside = {n: p for n, p in times.items() if (p > low).all() and (p < high).all()}
+    times = {} if contacts else inside  # which say themselves when they happen
+    return {**named, **gaps, **size, **times}
+
+
+def _times(
+    ax: Any, tracks: Sequence[Track], bodies: Sequence[Body], pair: list[int]
+) -> dict[str, np.ndarray]:
+    """Where the tracks are at the instants of the bodies, ringed; what is to be named there."""
+    found = {}
+    for step in dict.fromkeys(body.step for body in bodies):
+        for k, track in enumerate(tracks):
+            if track.style == ":":
+                continue
+            at = track.points[min(step, len(track.points) - 1), pair]
+            ax.plot(*at, "o", mfc="white", mec=track.color, mew=1.6, ms=6.5, zorder=5)
+            found[f"{step}" + " " * k] = at
+    return found
 
 
 def _close(point: np.ndarray, corners: np.ndarray) -> bool:

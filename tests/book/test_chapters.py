@@ -31,6 +31,7 @@ METHODS = [
     ("xue", "master as a moving obstacle", "with_arm"),
     ("xue", "ten runs from other starts", "run_trials"),
     ("xue", "lottery of arrangements", "random_case"),
+    ("xue", "a point that inverse kinematics follows", "plan_cartesian_ik"),
     ("xue", "distances of whole links", "link_cores"),
     ("qiu", "link transform by sympy", "rot_ccw_axis3"),
     ("qiu", "the chain in Pinocchio", "forwardKinematics"),
@@ -145,12 +146,12 @@ def _planned(names, **changed):
 def test_promised_changes_of_the_repulsion_happen():
     names = run("xue/potentials").names
     as_printed, weak, short = (
-        _planned(names, **changed) for changed in ({}, {"gain": 0.1}, {"influence": 0.1})
+        _planned(names, **changed) for changed in ({}, {"gain": 0.1}, {"influence": 0.2})
     )
     assert weak.steps < as_printed.steps
     assert weak.clearance.min() < as_printed.clearance.min()
     assert short.reached
-    assert 0.0 < short.clearance.min() < 0.1
+    assert 0.0 < short.clearance.min() < 0.2
 
 
 def test_a_virtual_point_that_lets_go_too_early_does_not_help():
@@ -163,7 +164,7 @@ def test_a_virtual_point_that_lets_go_too_early_does_not_help():
     assert plan.arrivals == settings.virtual_point.max_activations
 
 
-def test_a_smaller_perturbation_traps_all_ten_runs():
+def test_the_counts_change_with_the_perturbation():
     names = run("xue/table2").names
     counts = []
     for width in (0.01, 0.3):
@@ -171,14 +172,15 @@ def test_a_smaller_perturbation_traps_all_ten_runs():
         runs = names["outcomes"].run_variant(names["case"], "traditional", begin)
         counts.append(int((~runs.reached).sum()))
     assert counts[0] == 10
-    assert counts[1] not in (counts[0], 8)
+    assert counts[1] < 8
 
 
 def test_a_window_elsewhere_leaves_fig_9_nothing_to_show():
     names = run("xue/scene").names
-    case, search = names["case"], names["search"]
+    case, margins = names["case"], names["demands"].margins
     there = case._replace(layout=replace(case.layout, window_centre_y=0.8))
-    assert search.margins(case)["enters_bar"] > 0.0 > search.margins(there)["enters_bar"]
+    facts = names["radius"], names["meeting"]
+    assert margins(case, *facts)["enters_bar"] > 0.0 > margins(there, *facts)["enters_bar"]
 
 
 def test_the_start_lies_inside_the_cloud_of_an_arm_without_limits():
@@ -188,9 +190,9 @@ def test_the_start_lies_inside_the_cloud_of_an_arm_without_limits():
     assert names["points"][:, 2].min() > names["start"][2] > cloud[:, 2].min()
 
 
-def test_thicker_links_overlap():
+def test_thinner_links_are_clear():
     smallest = run("xue/truth").names["smallest"]
-    assert smallest["arms"] - 2 * 0.12 > 0.0 > smallest["arms"] - 2 * 0.14
+    assert smallest["arms"] - 2 * 0.05 > 0.0 > smallest["arms"] - 2 * 0.12
 
 
 def test_promised_changes_of_the_searches_happen():

@@ -155,6 +155,7 @@ def test_what_a_contradiction_hides_is_tried_where_it_is_broken(toy):
         ("U = k/2*(a - b)^2", ["U = k/2*(a + b)^2", "U = k/2*(a - b)^3", "U = 2*k/2*(a - b)^2"]),
         ("f(theta) = r", ["f(theta) = 2*r"]),
         ("max over c of M", ["2*max over c of M"]),
+        ("S = sum_{i=1}^{5} U(i)", ["S = 2*sum_{i=1}^{5} U(i)"]),
     ],
 )
 def test_nonsense_parses_and_says_something_else(text, others):

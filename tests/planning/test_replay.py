@@ -25,7 +25,7 @@ from dualarm_repro.planning.trials.free_minima import descend, free_minima
 from dualarm_repro.planning.trials.outcome import outcome
 from dualarm_repro.planning.trials.replay import Replay
 from dualarm_repro.planning.trials.runs import attempt, run_trials
-from dualarm_repro.planning.trials.speeds import largest_joint_step, mean_advance
+from dualarm_repro.planning.trials.speeds import mean_advance
 from dualarm_repro.planning.trials.turns import onsets, phases, stands_still
 from dualarm_repro.scene import JointPath, PlacedArm, Sphere
 
@@ -50,7 +50,7 @@ def test_a_replay_lasts_until_both_rest():
 
 def test_speeds_of_a_track_at_constant_pace():
     path = JointPath(np.linspace(np.zeros(6), np.full(6, 0.5), 6), 2.0 * np.arange(6))
-    assert largest_joint_step(path) == pytest.approx(0.1 * np.sqrt(6) / 2.0)
+    assert mean_advance(path.configurations, path.index) == pytest.approx(0.1 * np.sqrt(6) / 2.0)
     points = np.linspace([0.0, 0.0, 0.0], [3.0, 0.0, 0.0], 6)
     assert mean_advance(points, path.index) == pytest.approx(0.3)
 
@@ -80,12 +80,13 @@ def test_an_outcome_counts_its_runs():
     starts = perturbed(START, 0.1, 4, np.random.default_rng(0))
     made = problem(ARM, START, GOAL, around(), TRADITIONAL)
     runs = run_trials(ARM, starts, around(), TRADITIONAL)
-    found = outcome(made, runs, np.random.default_rng(0))
+    found = outcome(made, runs)
     assert found.runs == 4
     assert found.missed == int((~runs.reached).sum())
     assert found.held <= found.trapped
     assert found.steps_all == runs.steps.mean()
-    none = outcome(made, runs._replace(reason=np.full(4, "x", dtype=object)), None)
+    assert outcome(made, runs, at_goal=np.inf).trapped == 0
+    none = outcome(made, runs._replace(reason=np.full(4, "x", dtype=object)))
     assert none.missed == 4
     assert np.isnan(none.steps_reached)
 

@@ -8,6 +8,7 @@ from dualarm_repro.errors import DataFileError, DualArmError, InputError, Unknow
 from dualarm_repro.planning import (
     METHODS,
     APFSettings,
+    FollowReason,
     StopReason,
     load_tasks,
     method,
@@ -104,7 +105,7 @@ def test_every_method_runs_a_users_own_scene(write, name, given):
     result = plan_file(write(TASKS + family * given), name)
     assert set(result.plans) == {"left", "right"}
     for plan in result.plans.values():
-        assert plan.reason in set(StopReason)
+        assert plan.reason in {*StopReason, *FollowReason}
         assert plan.reached == (plan.certificate is None)
     assert np.isfinite(result.links(0.05).minimum)
     assert len({len(path.index) for path in result.paths.values()}) == 1 or name in APF

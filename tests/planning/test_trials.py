@@ -9,8 +9,9 @@ from dualarm_repro.differences import central_differences
 from dualarm_repro.errors import InputError
 from dualarm_repro.planning import certify, perturbed, plan_apf_compiled
 from dualarm_repro.planning.descent.problem import problem
+from dualarm_repro.planning.trials.held import FLAT, held, smallest_one_sided_curvature
 from dualarm_repro.planning.trials.runs import TOUCHES, Runs, run_trials, touching
-from dualarm_repro.planning.trials.stuck import STATIONARY, held, stationary
+from dualarm_repro.planning.trials.stuck import STATIONARY, stationary
 from dualarm_repro.scene import PlacedArm, Sphere, facing, window_frame
 
 ARM = PlacedArm("slave", SLAVE.arm, SLAVE.placement, START, GOAL)
@@ -89,7 +90,10 @@ def test_what_moves_on_or_has_arrived_is_not_stationary():
 def test_a_wall_holds_an_arm_against_pushes():
     runs = run_trials(ARM, STARTS, WALL, TRADITIONAL)
     assert runs.stuck.all()
-    assert held(made(WALL, TRADITIONAL), runs.last, np.random.default_rng(0)).all()
+    wall = made(WALL, TRADITIONAL)
+    assert held(wall, runs.last, stationary(wall, runs.last, runs.gradient)).all()
+    pushed = runs.last + np.random.default_rng(0).uniform(-1e-3, 1e-3, runs.last.shape)
+    assert not run_trials(ARM, pushed, WALL, TRADITIONAL).reached.any()
 
 
 def test_a_saddle_does_not_hold():
@@ -103,8 +107,33 @@ def test_a_saddle_does_not_hold():
     assert certified.position_error > 0.5
     rows = saddle[np.newaxis]
     assert stationary(free, rows, np.array([certified.gradient_norm])).all()
-    assert not held(free, rows, np.random.default_rng(0)).any()
+    assert not held(free, rows, np.array([True])).any()
+
+
+def test_what_one_side_of_an_edge_does_not_hold_is_not_held():
+    """Past the edge of a face the repulsion turns aside: there the potential falls, on the face it
+    rises, and the mean of both may be of either sign."""
+    runs = run_trials(ARM, STARTS, WALL, TRADITIONAL)
+    wall, q = made(WALL, TRADITIONAL), runs.last[0]
+
+    class Edge:
+        """The field with a slope that begins at q and only on one side of it."""
+
+        def value(self, at, step=0):
+            return wall.field.value(at, step) - 50.0 * np.maximum(at[..., 0] - q[0], 0.0) ** 2
+
+        def gradient(self, at, step=0):
+            extra = np.zeros(6)
+            extra[0] = -100.0 * max(at[0] - q[0], 0.0)
+            return wall.field.gradient(at, step) + extra
+
+    class Edged:
+        field, obstacles = Edge(), wall.obstacles
+
+    assert smallest_one_sided_curvature(wall, q, 0) >= -FLAT
+    assert smallest_one_sided_curvature(Edged(), q, 0) < -FLAT
 
 
 def test_nothing_stuck_is_nothing_held():
-    assert held(made(WALL, TRADITIONAL), np.empty((0, 6)), np.random.default_rng(0)).shape == (0,)
+    nothing = np.zeros(0, dtype=bool)
+    assert held(made(WALL, TRADITIONAL), np.empty((0, 6)), nothing).shape == (0,)

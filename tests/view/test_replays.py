@@ -1,7 +1,10 @@
 """Drawings of replayed motions and of an upright arm."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pinocchio as pin
+from matplotlib.collections import PolyCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.planning import plan_apf_compiled
@@ -16,7 +19,9 @@ from dualarm_repro.planning.settings import (
 )
 from dualarm_repro.planning.trials.replay import Replay
 from dualarm_repro.scene import JointPath, PlacedArm, Scene, window_frame
+from dualarm_repro.scene.posing import links_of
 from dualarm_repro.view import replays
+from dualarm_repro.view.link_bodies import capsules_at, draw_flat
 from dualarm_repro.view.scene3d import Scene3D
 from dualarm_repro.view.tracks import top_view_figure, tracks_figure
 from dualarm_repro.view.upright_arm import upright_drawing
@@ -52,6 +57,39 @@ def test_replays_are_drawn_from_either_side():
     assert {name for name in names if not name.startswith("_")} == {"master", "slave"}
     contacts = {"meets": shown.plan.tcp[replays.contacts_of(shown)[1]]}
     assert replays.replay_figure(tracks_figure, shown, BARS, marks, contacts, elev=20).axes
+
+
+def test_arms_are_drawn_as_bodies_at_the_same_instant():
+    shown, marks = replay(), {"start": replay().plan.tcp[0]}
+    figure = replays.replay_figure(tracks_figure, shown, BARS, marks, instants=[4, 8], elev=20)
+    space, above, _ = figure.axes
+    links = len(links_of(shown.other.arm).radius)
+    tubes = [c for c in space.collections if isinstance(c, Poly3DCollection)]
+    assert len(tubes) == len(BARS) + 2 * 2
+    outlines = [c for c in above.collections if isinstance(c, PolyCollection)]
+    assert [len(c.get_paths()) for c in outlines] == [links] * 4
+    assert {text.get_text().strip() for text in above.texts} >= {"8"}
+
+
+def test_a_meeting_is_marked_between_the_end_effectors():
+    shown = replay()
+    step, middle = replays.meeting(shown)
+    own, other = shown.plan.tcp[step], shown.track.at(np.array([float(step)]))
+    apart = np.linalg.norm(own - middle)
+    assert apart == np.min(0.5 * shown.apart(moving=True))
+    assert other.shape == (1, 6)
+
+
+def test_the_outline_of_a_link_has_its_radius():
+    body = replays.bodies_at(replay(), 3)[1]
+    ends, radii = capsules_at(body)
+    assert ends.shape == (len(radii), 2, 3)
+    figure, ax = plt.subplots()
+    draw_flat(ax, body, [0, 1])
+    (first, *_) = ax.collections[0].get_paths()
+    gaps = np.linalg.norm(first.vertices - ends[0, 0, :2], axis=1)
+    assert gaps.min() >= radii[0] - 1e-9
+    plt.close(figure)
 
 
 def test_scenes_hold_what_is_added():

@@ -46,3 +46,16 @@ def test_overview_counts_everything(registry):
     assert (table.iloc[:-1].sum() == table.iloc[-1]).all()
     assert 'id="verdict-counts"' in counts_page(registry).html
     assert ledger_page(registry).html.count('<details class="ledger-row"') == len(registry.items)
+
+
+def test_sentences_of_a_document_lead_to_the_items_that_judge_them(registry):
+    from dualarm_repro.view.document import sentences_page
+
+    page = sentences_page(registry, "xue").html
+    paper = registry.papers["xue"]
+    judged = sum(bool(sentence.items) for sentence in paper.sentences)
+    assert f"{len(paper.sentences)} sentences" in page
+    assert f"items judge {judged} of them" in page
+    assert page.count("<tr><td>") == len(paper.sentences)
+    assert 'href="../items/xue.claim_virtual_escapes.html"' in page
+    assert "none: " in page

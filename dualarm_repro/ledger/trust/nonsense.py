@@ -14,7 +14,8 @@ from ..printed import leaves, read_number
 
 _SIGN = re.compile(r"(?<=[\w)\]|]) ([+-]) (?=[\w(|\[])")
 _POWER = re.compile(r"\^(\d)(?!\d)")
-_EQUAL = re.compile(r"(?<![<>!=])=(?!=)")
+#: Not that of a sum, as in "sum_{i=1}^{5}".
+_EQUAL = re.compile(r"(?<![<>!=])=(?!=)(?![^{}]*})")
 
 
 def formulas(printed: Any) -> Iterator[tuple[tuple[Any, ...], str]]:

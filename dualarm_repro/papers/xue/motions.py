@@ -17,9 +17,9 @@ from ...planning.trials.encounter import to_obstacles
 from ...planning.trials.link_cores import LinkCores, link_cores
 from ...planning.trials.replay import Replay
 from ...planning.trials.runs import attempt
-from ...scene import JointPath, Scene
+from ...scene import JointPath, PlacedArm, Scene
 from ...tracking import memo
-from .document import Layout, Posed, placed_master, placed_slave, scene_of
+from .document import Layout, Posed, arms_of, placed_master, placed_slave, scene_of
 from .reading import Case, PlannerChoice, attraction_only, improved
 
 #: Largest joint step between two looks at whole links [rad].
@@ -68,8 +68,13 @@ def slave_undisturbed(layout: Layout, planner: PlannerChoice) -> Plan | None:
 
 
 def _undisturbed(placed: Posed, planner: PlannerChoice) -> Plan:
-    nothing = obstacles_of(Scene([placed]))
-    return plan_apf_compiled(placed, placed.start, placed.goal, nothing, attraction_only(planner))
+    settings = attraction_only(planner)
+    return plan_apf_compiled(placed, placed.start, placed.goal, _nothing(), settings)
+
+
+@memo()
+def _nothing() -> Obstacles:
+    return obstacles_of(Scene([PlacedArm("arm", arms_of("matrices")[0])]))
 
 
 @memo(512)
@@ -120,6 +125,14 @@ def slave_plan(case: Case) -> Plan | None:
     placed, obstacles = slave_task(case)
     settings = improved(case.planner, case.layout.window_centre, placed.goal)
     return attempt(placed, placed.start, obstacles, settings)
+
+
+@memo(512)
+def slave_without_master(case: Case) -> Plan | None:
+    """The slave past the window by the improved method, with the master unknown to it."""
+    placed, _ = slave_task(case)
+    settings = improved(case.planner, case.layout.window_centre, placed.goal)
+    return attempt(placed, placed.start, window_obstacles(case.layout), settings)
 
 
 @memo(512)

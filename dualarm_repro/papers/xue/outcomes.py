@@ -12,16 +12,26 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...errors import InputError
 from ...ledger.comparison import Comparison
-from ...planning.descent.batch import perturbed
+from ...planning.descent.batch import perturbed, plan_batch
+from ...planning.descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
+from ...planning.descent.compiled import plan_apf_compiled
 from ...planning.descent.problem import PlanningProblem, problem
+from ...planning.master_slave import Planner
+from ...planning.plan import Plan
 from ...planning.settings import APFSettings
 from ...planning.trials.outcome import Outcome, outcome
-from ...planning.trials.runs import Runs, run_trials
+from ...planning.trials.runs import BatchPlanner, Runs, attempt, run_trials, touching
 from .motions import slave_task
-from .reading import Case, improved, traditional
+from .reading import POSITION_TOLERANCE, Case, improved, traditional
 
 TRIALS = 10
+#: Readings of the traditional method, as the assumption ``classical_method`` names them, and the
+#: criteria by which it succeeds.
+READINGS = ("end_effector", "five_points", "cartesian_ik")
+CRITERIA = ("position", "goal_angles")
+_BLOCKS = 100  # of starts that are drawn before an arrangement is given up
 
 
 class Variant(NamedTuple):
@@ -29,11 +39,21 @@ class Variant(NamedTuple):
 
     title: str
     settings: Callable[[Case], APFSettings]
+    single: Planner = plan_apf_compiled
+    batch: BatchPlanner = plan_batch
 
     def problem(self, case: Case) -> PlanningProblem:
-        """The problem of the slave with this planner."""
+        """The problem of the slave with this planner, in whose field a standstill is judged."""
         placed, obstacles = slave_task(case)
-        return problem(placed, placed.start, placed.goal, obstacles, self.settings(case))
+        settings = self.settings(case)
+        if self.batch is plan_cartesian_ik_batch:
+            settings = traditional(case.planner, "end_effector")
+        return problem(placed, placed.start, placed.goal, obstacles, settings)
+
+    def plan(self, case: Case) -> Plan | None:
+        """From the start of the slave; None where it touches an obstacle."""
+        placed, obstacles = slave_task(case)
+        return attempt(placed, placed.start, obstacles, self.settings(case), self.single)
 
 
 def _improved(case: Case, switching: str | None = None, **parts: Any) -> APFSettings:
@@ -52,6 +72,12 @@ VARIANTS: dict[str, Variant] = {
     "without_virtual": Variant("(13)-(16), no virtual point", partial(_improved, virtual=False)),
     "five_points": Variant(
         "(9), (10) at five points", lambda case: traditional(case.planner, "five_points")
+    ),
+    "cartesian_ik": Variant(
+        "(9), (10) for a point, inverse kinematics",
+        lambda case: traditional(case.planner, "five_points"),
+        plan_cartesian_ik,
+        plan_cartesian_ik_batch,
     ),
     "traditional_virtual": Variant(
         "(9), (10) with virtual point",
@@ -96,8 +122,37 @@ def variant_of(method: str) -> str:
 
 
 def starts(case: Case, half_width: float, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Start angles of the slave, uniformly perturbed, (count, 6) [rad]."""
-    return perturbed(slave_task(case)[0].start, half_width, count, rng)
+    """Start angles of the slave, uniformly perturbed, that touch nothing, (count, 6) [rad]."""
+    return clear_starts(case, half_width, count, rng)[0]
+
+
+def clear_starts(
+    case: Case, half_width: float, count: int, rng: np.random.Generator
+) -> tuple[np.ndarray, int]:
+    """The same, and how many were left out because a point of some method touches an obstacle.
+
+    The methods look with different points, so that a start in contact would be a miss of one of
+    them and a run of the other.
+
+    Raises
+    ------
+    InputError
+        Nearly all starts touch an obstacle.
+    """
+    placed, left_out = slave_task(case)[0], 0
+    made = [VARIANTS[name].problem(case) for name in ("traditional", "improved")]
+    found: list[np.ndarray] = []
+    for _ in range(_BLOCKS):
+        drawn = perturbed(placed.start, half_width, count, rng)
+        for q, out in zip(
+            drawn, np.any([touching(one, drawn) for one in made], axis=0), strict=True
+        ):
+            if len(found) < count:
+                left_out += int(out)
+                found += [q] * (not out)
+        if len(found) == count:
+            return np.array(found), left_out
+    raise InputError("arrangement", "starts of trials", left_out, "some that touch no obstacle")
 
 
 def outcomes(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[str, Any]:
@@ -109,13 +164,15 @@ def outcomes(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[str, A
     return columns
 
 
-def run_variants(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[str, Runs]:
-    """Runs of several planners from the same starts.
+def run_variants(
+    case: Case, names: Sequence[str], begin: np.ndarray, criterion: str = "position"
+) -> dict[str, Runs]:
+    """Runs of several planners from the same starts; ``criterion`` is that of the traditional.
 
     A virtual point that is switched on in a trap changes nothing of a run that meets none, so the
     improved method is run only where it fails without that point, if that is among the planners.
     """
-    made = {name: run_variant(case, name, begin) for name in names if name != "improved"}
+    made = {name: run_variant(case, name, begin, criterion) for name in names if name != "improved"}
     if "improved" in names:
         plain = made.get("without_virtual")
         if plain is None or case.planner.virtual_switching != "on_when_stuck":
@@ -128,12 +185,26 @@ def run_variants(case: Case, names: Sequence[str], begin: np.ndarray) -> dict[st
     return made
 
 
-def run_variant(case: Case, name: str, begin: np.ndarray) -> Runs:
-    """Runs of one planner."""
+def run_variant(case: Case, name: str, begin: np.ndarray, criterion: str = "position") -> Runs:
+    """Runs of one planner.
+
+    Parameters
+    ----------
+    criterion
+        Where a reading of the traditional method has to arrive: ``position``, or ``goal_angles`` as
+        is printed for a successful run.
+    """
     placed, obstacles = slave_task(case)
-    return run_trials(placed, begin, obstacles, VARIANTS[name].settings(case))
+    variant = VARIANTS[name]
+    settings = variant.settings(case)
+    if criterion == "goal_angles" and name in map(variant_of, READINGS):
+        to_angles = settings.termination.changed(
+            joint_tolerance=case.planner.goal_tolerance, position_tolerance=None
+        )
+        settings = settings.changed(termination=to_angles)
+    return run_trials(placed, begin, obstacles, settings, variant.batch)
 
 
 def summary(case: Case, name: str, runs: Runs) -> Outcome:
-    """Counts and means of some runs, each pushed in the same way where it stands still."""
-    return outcome(VARIANTS[name].problem(case), runs, np.random.default_rng(0))
+    """Counts and means of some runs; one that rests at the goal position is in no trap."""
+    return outcome(VARIANTS[name].problem(case), runs, at_goal=POSITION_TOLERANCE)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -13,9 +13,8 @@ from ...ledger.shares import Share
 from ...tracking import memo
 from .document import Layout, text_counts
 from .motions import PAIRS
-from .outcomes import VARIANTS, variant_of
+from .outcomes import CRITERIA, READINGS, VARIANTS, variant_of
 from .studies.ablation import ABLATION, NAMED
-from .studies.comparison import COMPARISON
 from .studies.lottery import LOTTERY, lottery_table
 from .studies.minima import MINIMA
 from .studies.trials import REPEATED
@@ -94,31 +93,12 @@ def held_share(method: str) -> Share:
     return _share(lottery_table(), method, "held", "trapped")
 
 
-@memo()
-def comparison_table() -> pd.DataFrame:
-    """Starts in contact and paths, one row per arrangement of the lottery."""
-    return COMPARISON.load()
-
-
-def starts_clear() -> np.ndarray:
-    """Arrangements of the lottery in which no start of a trial touches an obstacle, (N,)."""
-    return (comparison_table()["touching_five_points"] == 0).to_numpy()
-
-
-def successful() -> pd.DataFrame:
-    """Arrangements in which the end effectors also do what Figs 8, 10 and 11 show."""
-    table = lottery_table()
-    arrived = (table["slave_reason"] == "reached") & (table["master_distance"] > 0.0)
-    apart = table["flanges_apart"] > table["meeting_distance"]
-    return table[arrived & apart & (table["slave_flange_window"] > 0.0)]
-
-
 def clear_share(radius: float, *pairs: str) -> Share:
-    """Share of these in which the links of that radius stay clear.
+    """Share of the arrangements in which the links of that radius stay clear.
 
     ``pairs`` are among ``slave_window``, ``master_window`` and ``arms``; none means all.
     """
-    table = successful()
+    table = lottery_table()
     clear = np.ones(len(table), dtype=bool)
     for pair in pairs or PAIRS:
         width = 2.0 * radius if pair == "arms" else radius
@@ -126,14 +106,39 @@ def clear_share(radius: float, *pairs: str) -> Share:
     return Share.of(clear.sum(), len(clear))
 
 
+class Cell(NamedTuple):
+    """One cell of the matrix of Table 2: what print leaves open, and the shares found."""
+
+    method: str
+    criterion: str
+    update_rule: str
+    half_width: float
+    runs: int
+    missed: Share
+    held: Share
+
+
 @memo()
-def repeated_shares() -> Mapping[str, Mapping[str, Share]]:
-    """Share of trials in the nominal arrangement that miss, by rule of the step and method."""
-    methods = ("traditional", "improved", "without_virtual")
-    return {
-        rule: {method: _share(rows, method, "missed", "runs") for method in methods}
-        for rule, rows in REPEATED.load().groupby("update_rule", sort=False)
-    }
+def table_2_matrix() -> tuple[Cell, ...]:
+    """Every reading of the traditional method by either criterion, then the improved method."""
+    cells = []
+    for (rule, width), rows in REPEATED.load().groupby(["update_rule", "half_width"], sort=False):
+        for method in (*map(variant_of, READINGS), "improved"):
+            for criterion in CRITERIA:
+                if method == "improved" and criterion == CRITERIA[0]:
+                    continue
+                tagged = method == "improved" or criterion == CRITERIA[0]
+                name = method if tagged else f"{method}_{criterion}"
+                shares = (_share(rows, name, part, "runs") for part in ("missed", "held"))
+                count = int(rows[f"{name}_runs"].sum())
+                cells.append(Cell(method, criterion, str(rule), float(width), count, *shares))
+    return tuple(cells)
+
+
+def touching_starts() -> dict[str, int]:
+    """Starts that touched an obstacle and were left out, over the lottery and in the matrix."""
+    columns = {"lottery": lottery_table(), "matrix": REPEATED.load()}
+    return {name: int(table["starts_touching"].sum()) for name, table in columns.items()}
 
 
 @memo()

@@ -13,8 +13,9 @@ from ..field.field_kernels import evaluate, field_of, gradient, workspace
 from ..field.obstacles import Obstacles
 from ..settings import APFSettings
 from .compiled import empty_rows, rules_of, run
+from .follow_reason import REASONS, FollowReason
 from .outcome import refined, rescued
-from .problem import problem, require_clear
+from .problem import PlanningProblem, problem, require_clear
 from .termination import StopReason
 
 
@@ -24,7 +25,7 @@ class Batch:
 
     Attributes
     ----------
-    reason : tuple of StopReason
+    reason : tuple of StopReason or FollowReason
     steps : ndarray (N,) of int
     last : ndarray (N, nq)
         Configurations at the end [rad].
@@ -38,7 +39,7 @@ class Batch:
         Whether the goal is reached after the virtual point was switched on in a trap.
     """
 
-    reason: tuple[StopReason, ...]
+    reason: tuple[StopReason | FollowReason, ...]
     steps: np.ndarray
     last: np.ndarray
     clearance: np.ndarray
@@ -74,9 +75,17 @@ def plan_batch(
     measures = np.empty((len(starts), 2))
     given = field_of(made), rules_of(made), made.switch_rules, starts, empty_rows(made)
     _run_all(*given, last, numbers, measures)
+    return batch_of(made, last, numbers, measures)
+
+
+def batch_of(
+    made: PlanningProblem, last: np.ndarray, numbers: np.ndarray, measures: np.ndarray
+) -> Batch:
+    """The batch of what a compiled loop left: last configurations (N, nq), reason, steps,
+    activations and arrivals (N, 4), clearance and gradient norm (N, 2)."""
     codes, steps, activations, arrivals = numbers.T
     clearance, gradient_norm = measures.T
-    ended = [list(StopReason)[number] for number in codes]
+    ended = [REASONS[number] for number in codes]
     return Batch(
         tuple(refined(made, *end) for end in zip(ended, last, steps.tolist(), strict=True)),
         steps,

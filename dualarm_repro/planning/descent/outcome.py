@@ -8,6 +8,7 @@ from ...arms import Arm
 from ..plan import Plan, Record
 from ..settings import Switching
 from .certificate import certify
+from .follow_reason import FollowReason
 from .problem import PlanningProblem
 from .termination import StopReason, within
 
@@ -38,7 +39,9 @@ def leaves_limits(
     return tuple(name for name, q in looked_at.items() if not np.all(arm.within_limits(q, 1e-9)))
 
 
-def refined(made: PlanningProblem, reason: StopReason, q: np.ndarray, step: int) -> StopReason:
+def refined(
+    made: PlanningProblem, reason: StopReason | FollowReason, q: np.ndarray, step: int
+) -> StopReason | FollowReason:
     """Whether a trapped arm rests close to a goal at which an obstacle repels it."""
     if reason is not StopReason.TRAPPED:
         return reason
@@ -47,7 +50,7 @@ def refined(made: PlanningProblem, reason: StopReason, q: np.ndarray, step: int)
     return StopReason.NEAR_OBSTACLE if close and made.repels_at_goal(step) else reason
 
 
-def rescued(made: PlanningProblem, reason: StopReason, activations: int) -> bool:
+def rescued(made: PlanningProblem, reason: StopReason | FollowReason, activations: int) -> bool:
     """Whether the goal is reached after a virtual point was switched on in a trap."""
     point = made.settings.virtual_point
     tried = point is not None and point.switching in _IN_A_TRAP and activations > 0

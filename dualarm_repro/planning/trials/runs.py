@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...scene import PlacedArm
-from ..descent.batch import plan_batch
+from ..descent.batch import Batch, plan_batch
 from ..descent.compiled import plan_apf_compiled
 from ..descent.problem import PlanningProblem, problem
 from ..descent.termination import StopReason
 from ..field.obstacles import Obstacles
+from ..master_slave import Planner
 from ..plan import Plan
 from ..settings import APFSettings
 
+BatchPlanner = Callable[[PlacedArm, ArrayLike, ArrayLike, Obstacles, APFSettings], Batch]
 #: Reason of a run whose start touches an obstacle.
 TOUCHES = "start-touches-obstacle"
 
@@ -25,7 +29,7 @@ class Runs(NamedTuple):
 
     Attributes
     ----------
-    reason : ndarray (N,) of StopReason, or TOUCHES
+    reason : ndarray (N,) of StopReason or FollowReason, or TOUCHES
     steps : ndarray (N,) of int
     last : ndarray (N, nq)
         Configurations at the end [rad].
@@ -61,12 +65,16 @@ class Runs(NamedTuple):
 
 
 def attempt(
-    placed: PlacedArm, start: np.ndarray, obstacles: Obstacles, settings: APFSettings
+    placed: PlacedArm,
+    start: np.ndarray,
+    obstacles: Obstacles,
+    settings: APFSettings,
+    planner: Planner = plan_apf_compiled,
 ) -> Plan | None:
     """A plan to the goal of the arm, or None where its start (nq,) touches an obstacle."""
     goal = _given(placed, "goal")
     try:
-        return plan_apf_compiled(placed, start, goal, obstacles, settings)
+        return planner(placed, start, goal, obstacles, settings)
     except InputError:
         return None
 
@@ -77,7 +85,11 @@ def touching(made: PlanningProblem, starts: np.ndarray) -> np.ndarray:
 
 
 def run_trials(
-    placed: PlacedArm, starts: np.ndarray, obstacles: Obstacles, settings: APFSettings
+    placed: PlacedArm,
+    starts: np.ndarray,
+    obstacles: Obstacles,
+    settings: APFSettings,
+    planner: BatchPlanner = plan_batch,
 ) -> Runs:
     """One run to the goal of the arm per start (N, nq); one that touches an obstacle ends there.
 
@@ -94,7 +106,7 @@ def run_trials(
     runs = Runs(reason, nothing, starts.copy(), np.zeros(count), never, never.copy())
     if not clear.any():
         return runs
-    batch = plan_batch(placed, starts[clear], goal, obstacles, settings)
+    batch = planner(placed, starts[clear], goal, obstacles, settings)
     reasons = np.array(batch.reason, dtype=object)
     ends = (reasons, batch.steps, batch.last, batch.gradient_norm, batch.activations > 0)
     return runs.replaced(clear, Runs(*ends, batch.rescued))

@@ -1,18 +1,11 @@
-"""Two senses of the speed of a motion per instant: in the joints, and at the tool."""
+"""The speed of a motion per instant, whatever it is measured in."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ...scene import JointPath
-
-
-def largest_joint_step(track: JointPath) -> float:
-    """max |q_{i+1} - q_i| / (t_{i+1} - t_i), the largest displacement per instant [rad]."""
-    steps = np.linalg.norm(np.diff(track.configurations, axis=0), axis=1) / np.diff(track.index)
-    return float(steps.max())
-
 
 def mean_advance(points: np.ndarray, index: np.ndarray) -> float:
-    """Length of a track (N, 3) over the instants (N,) it takes [m]."""
+    """Length of a track (N, n) over the instants (N,) it takes: (N, 3) in space [m], or (N, nq) in
+    the joints [rad]."""
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() / index[-1])

@@ -6,6 +6,7 @@ import pytest
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.ledger.settled import settle
 from dualarm_repro.papers.xue import stored
+from dualarm_repro.papers.xue.pages import truth
 from dualarm_repro.papers.xue.pages.table2 import superiority
 from dualarm_repro.papers.xue.pages.table2 import table as table_2
 from dualarm_repro.papers.xue.pages.table2.statements import printed_seconds
@@ -24,20 +25,23 @@ def test_mean_with_interval():
     assert found["of"] == 4
 
 
-def test_traps_that_hold_are_possible_though_not_in_the_arrangement_shown(registry):
+def test_traps_that_hold_are_possible(registry):
     evaluation = evaluate(registry, "xue.claim_trapped_8")
-    assert evaluation.verdict is Verdict.NOT_REPRODUCED
-    found = settled(registry, "claim_trapped_8")
-    assert found.verdict is Verdict.UNDER_ASSUMPTION
-    (witness,) = [entry for entry in found.witnesses if entry["verdict"] == "holds"]
-    assert witness["judged"]["held"]["traditional"] == 8
-    assert witness["judged"]["missed"]["improved"] == 0
+    assert evaluation.verdict is Verdict.UNDER_ASSUMPTION
+    assert evaluation.result.obtained["held"]["traditional"] == 8
+    assert evaluation.result.obtained["unproved"] == 0
 
 
-def test_without_a_witness_held_traps_are_not_found(registry, monkeypatch):
-    monkeypatch.setattr(table_2, "trapped_witnesses", lambda reading: [])
-    monkeypatch.setattr("dualarm_repro.ledger.settled.stored", lambda *_: ("none", None))
-    assert settled(registry, "claim_trapped_8").verdict is Verdict.NOT_REPRODUCED
+def test_runs_that_only_stand_still_are_no_traps(registry, monkeypatch):
+    """Eight that stand still, none in a minimum: what a saddle or an edge makes of the count."""
+    given = table_2.assumed_trials
+
+    def on_a_saddle(assumed):
+        trials = given(assumed)
+        return trials._replace(traditional=trials.traditional._replace(held=0))
+
+    monkeypatch.setattr(table_2, "assumed_trials", on_a_saddle)
+    assert evaluate(registry, "xue.claim_trapped_8").verdict is Verdict.NOT_REPRODUCED
 
 
 def test_a_witness_lies_within_the_declared_ranges(registry):
@@ -56,6 +60,17 @@ def test_whether_other_links_collide_has_a_witness_of_either_kind(registry):
         holds["judged"]["links_touch_at_radius"] > 0.12 >= fails["judged"]["links_touch_at_radius"]
     )
     assert settled(registry, "claim_only_tcp").verdict is Verdict.UNDECIDABLE
+
+
+def test_a_counterexample_refutes_the_inference_from_tips_to_links(registry, monkeypatch):
+    found = settled(registry, "claim_tip_check_suffices")
+    assert found.verdict is Verdict.NOT_REPRODUCED
+    (witness,) = [entry for entry in found.witnesses if entry["choice"].startswith("arrangement")]
+    assert witness["judged"]["links_touch_at_radius"] <= 0.12
+    assert witness["judged"]["flanges_apart"] > 0.15
+    clear = stored.lottery_table().assign(cores_arms=1.0)
+    monkeypatch.setattr(truth, "lottery_table", lambda: clear)
+    assert evaluate(registry, "xue.claim_tip_check_suffices").verdict is Verdict.UNDER_ASSUMPTION
 
 
 def test_text_and_table_are_outcomes_that_exclude_each_other(registry):
@@ -118,3 +133,7 @@ def test_flow_turns_to_the_virtual_point_only_in_a_trap(registry, switching, ver
 def test_a_longer_upper_arm_exceeds_the_printed_reach(registry):
     assert evaluate(registry, "xue.fig05").result.obtained["beyond_reach"] == 0
     assert evaluate(registry, "xue.fig05", {"upper_arm": 1.15}).verdict is Verdict.NOT_REPRODUCED
+
+
+def test_only_joints_without_limits_hold_the_printed_start(registry):
+    assert evaluate(registry, "xue.fig05").result.obtained["holds_start"] == ["full_turns"]

@@ -13,10 +13,19 @@ from ....ledger.shares import Share
 from ....planning.trials.link_cores import LinkCores
 from ....view.shares import curve_figure
 from ..document import lengths
-from ..motions import PAIRS, cores_of, largest_radius, replay_of, slave_plan, smallest_cores
+from ..motions import (
+    PAIRS,
+    cores_of,
+    largest_radius,
+    master_plan,
+    present,
+    replay_of,
+    slave_plan,
+    smallest_cores,
+)
 from ..outcomes import VARIANTS
 from ..reading import Case, nominal
-from ..stored import choice, clear_share, is_declared, successful
+from ..stored import choice, clear_share, is_declared, lottery_table
 
 checks = partial(REGISTRY.checks, page="xue/truth")
 caption = captions(__file__)
@@ -45,7 +54,7 @@ def only_end_effectors(assumed: Assumed) -> Result:
         cores, apart = cores_of(replay, case.layout, floor), float(replay.apart().min())
         touching = 0.5 * smallest_cores(cores)["arms"] <= radius
         collide = apart > assumed["meeting_distance"] and touching
-    ends = successful()
+    ends = lottery_table()
     postures = (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum()
     shares = {pair: clear_share(radius, pair)._asdict() for pair in PAIRS}
     return Result(
@@ -67,9 +76,46 @@ def only_end_effectors(assumed: Assumed) -> Result:
     )
 
 
+@checks(
+    "xue.claim_tip_check_suffices",
+    rules=[
+        Bounded(
+            "refuting",
+            "arrangements in which the end effectors stay apart and other links of the arms touch",
+            high=0,
+        )
+    ],
+    samples=8,
+)
+def tips_speak_for_links(assumed: Assumed) -> Result:
+    """Counterexamples to the inference among the arrangements in which the figures hold."""
+    radius, table = assumed["link_radius"], lottery_table()
+    touch = 0.5 * table["cores_arms"] <= radius
+    far = table[touch & is_declared(table)]
+    worst = [] if far.empty else [far.loc[far["flanges_apart"].idxmax()]]
+    return Result(
+        obtained={
+            "refuting": int(touch.sum()),
+            "of": len(table),
+            "share": Share.of(touch.sum(), len(table))._asdict(),
+            "farthest_tips": None if not worst else float(worst[0]["flanges_apart"]),
+        },
+        caption=caption("claim_tip_check_suffices", radius=radius),
+        witnesses=[
+            choice(
+                int(row.name),
+                "fails",
+                flanges_apart=float(row["flanges_apart"]),
+                links_touch_at_radius=float(0.5 * row["cores_arms"]),
+            )
+            for row in worst
+        ],
+    )
+
+
 def arms_witnesses(radius: float) -> list[dict[str, Any]]:
     """Two declared arrangements in which the end effectors stay apart: arms clear, and not."""
-    table = successful()
+    table = lottery_table()
     table = table[is_declared(table)]
     clear = 0.5 * table["cores_arms"] > radius
     return [
@@ -92,19 +138,27 @@ def arms_witnesses(radius: float) -> list[dict[str, Any]]:
             "largest radius or length of what attracts, repels and is repelled [m]",
             high=0,
             role=Role.ADOPTS,
-        )
+        ),
+        Bounded(
+            "off_origins",
+            "distances on the path of the master against those of the joint origins [m]",
+            high=1e-9,
+            role=Role.ADOPTS,
+        ),
     ],
     samples=8,
 )
 def joints_as_points(assumed: Assumed) -> Result:
     """Sizes in the problem that the slave's planner is given; what no size hides."""
-    made = VARIANTS["improved"].problem(nominal(control_points=assumed["control_points"]))
+    case = nominal(control_points=assumed["control_points"])
+    made = VARIANTS["improved"].problem(case)
     points, obstacles, radius = made.points, made.obstacles, assumed["link_radius"]
     pieces = ((points.local, points.radius), (obstacles.cores[0], obstacles.radius))
     counts = {"points": len(points.names), "repelling": len(obstacles.radius)}
     return Result(
         obtained={
             "size": max(_largest(*piece) for piece in pieces),
+            "off_origins": _off_origins(case),
             "clear_without_thickness": clear_share(0.0)._asdict(),
             "clear_with_radius": clear_share(radius)._asdict(),
         },
@@ -116,6 +170,22 @@ def _largest(ends: np.ndarray, radius: np.ndarray) -> float:
     """Largest radius or length among cores with ends (K, 2, 3) [m]."""
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     return float(max(length.max(), radius.max()))
+
+
+def _off_origins(case: Case) -> float:
+    """Largest difference of the distances to the window that the planner records on the path of
+    the master from those of the nearest joint origin, whatever point set it uses [m]."""
+    plan = present(master_plan(case.layout, case.planner), "plan of the master")
+    placed = plan.placed
+    origins = placed.arm.joint_positions(plan.path) + placed.placement.translation
+    found = np.full((*origins.shape[:2], 0), np.inf)
+    for bar in case.layout.window():
+        local = (origins - bar.center) @ bar.rotation
+        outside = np.linalg.norm(np.maximum(np.abs(local) - bar.half, 0.0), axis=2)
+        found = np.concatenate([found, outside[:, :, np.newaxis]], axis=2)
+    nearest = found.min(axis=2)
+    gaps = np.abs(plan.clearance[:, :, np.newaxis] - nearest[:, np.newaxis, :])
+    return float(gaps.min(axis=2).max())
 
 
 def _nominal_numbers(nominal: LinkCores | None, radius: float) -> dict[str, Any]:

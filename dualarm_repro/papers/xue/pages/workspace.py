@@ -87,6 +87,7 @@ def master_cloud(assumed: Assumed) -> Result:
             "farthest": size.distance[1],
             "beyond_reach": int(np.count_nonzero(farthest > reach("matrices") + _ROUND_OFF)),
             "start_above_lowest": float(arm.fk(master_start())[2, 3] - size.lower[2]),
+            "holds_start": _ranges_with_the_start(assumed["upper_arm"]),
             "volume_rotation_body": {f"{b.cell:g}": b.volume for b in body},
             "volume_voxels": {f"{v.cell:g}": v.volume for v in voxels},
         },
@@ -100,6 +101,17 @@ def master_cloud(assumed: Assumed) -> Result:
         "about the vertical axis; beside it its half section, and volume over cell size.",
         figure=lambda: volume_figure(points, body, voxels),
     )
+
+
+def _ranges_with_the_start(upper_arm: float) -> list[str]:
+    """Joint ranges whose cloud reaches down to the printed start, and which allow its angles."""
+    found = []
+    for name in REGISTRY.declared("xue.joint_ranges", "choices").choices or ():
+        arm = arm_in_use(str(name), upper_arm)
+        lowest = extents(cloud(arm, workspace_points())).lower[2]
+        if arm.within_limits(master_start()) and lowest <= arm.fk(master_start())[2, 3]:
+            found.append(str(name))
+    return found
 
 
 @checks("xue.claim_mc_points", rules=[Adopts("points", "random points used", to="points")])

@@ -1,5 +1,5 @@
 """Stored studies of `xue`."""
 
-from . import ablation, comparison, lottery, minima, search, trials
+from . import ablation, lottery, minima, paths, planners, search, trials
 
-__all__ = ["ablation", "comparison", "lottery", "minima", "search", "trials"]
+__all__ = ["ablation", "lottery", "minima", "paths", "planners", "search", "trials"]

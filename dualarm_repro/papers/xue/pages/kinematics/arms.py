@@ -86,8 +86,18 @@ def link_frames(assumed: Assumed) -> Result:
         table=table,
         caption=caption("fig02", shared=common_origins(frames)),
         alt="Seven coordinate frames along an arm with a level upper arm and a hanging forearm.",
-        figure=lambda: frames_figure(frames, 0.25),
+        figure=lambda: frames_figure(frames, 0.25, _spans(frames)),
     )
+
+
+def _spans(frames: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """The lengths of the chain from point to point; the elbow offset a3 ends above frame 4."""
+    origins, size = frames[:, :3, 3], lengths("matrices")
+    elbow = origins[3] + size["a3"] * frames[3, :3, 0]
+    ends = {"a1": (origins[1], origins[2]), "a2": (origins[2], origins[3]),
+            "a3": (origins[3], elbow), "d4": (elbow, origins[4]),
+            "d6": (origins[5], origins[6])}  # fmt: skip
+    return {f"{name} = {size[name]:g} m": span for name, span in ends.items()}
 
 
 @checks(

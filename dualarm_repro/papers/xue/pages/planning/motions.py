@@ -6,12 +6,14 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
 from .....planning.plan import Plan
 from .....planning.trials.replay import Replay
 from .....view import replays
+from .....view.link_bodies import Body
 from .....view.style import MASTER
 from .....view.tracks import Track, distances_figure, top_view_figure, tracks_figure
 from ...document import Layout, gains
@@ -23,6 +25,7 @@ from ...motions import (
     replay_of,
     slave_plan,
     slave_undisturbed,
+    slave_without_master,
 )
 from ...reading import Case, PlannerChoice
 from ..scene import stage
@@ -56,6 +59,11 @@ _AVOIDING_RULES = (
         "distance of the end effectors until both rest, less that of a meeting [m]",
         low=1e-6,
     ),
+    Bounded(
+        "beyond_meeting_unaware",
+        "the same for a slave that does not know of the master [m]",
+        high=0,
+    ),
 )
 
 
@@ -66,6 +74,7 @@ def master_past_window(assumed: Assumed) -> Result:
     if motions is None:
         return Result(found, _NO_START)
     layout, (plan, alone) = Layout.of(assumed), motions
+    bodies = [Body(plan.placed, plan.path[k], MASTER, k) for k in _instants(plan.steps)]
     tracks = [
         Track("attraction alone", alone.tcp, "0.5", ":"),
         Track("improved method", plan.tcp, MASTER),
@@ -77,7 +86,9 @@ def master_past_window(assumed: Assumed) -> Result:
         caption=caption("fig08"),
         alt="Track of the master's end effector in space past a window frame of four bars, bent "
         "away from the dashed track it would take without repulsion.",
-        figure=lambda: tracks_figure(layout.window(), tracks, ends, elev=18, azim=-40),
+        figure=lambda: tracks_figure(
+            layout.window(), tracks, ends, bodies=bodies, elev=18, azim=-40
+        ),
         scene=lambda: replays.add_plan(
             stage("The master moves past the window; its track is blue.", layout), plan
         ),
@@ -107,16 +118,19 @@ def slave_collides(assumed: Assumed) -> Result:
     replay, found = _colliding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    layout, (deepest, nearest) = Layout.of(assumed), replays.contacts_of(replay)
+    layout, (deepest, _) = Layout.of(assumed), replays.contacts_of(replay)
+    step, middle = replays.meeting(replay)
     tcp = replay.plan.tcp
-    contacts = {"hits the window": tcp[deepest], "meets the master": tcp[nearest]}
+    contacts = {f"hit, step {deepest}": tcp[deepest], f"meeting, {step}": middle}
+    how: dict[str, Any] = {"instants": [step], **_VIEW}
     title = "Attracted only, the slave runs into window and master; contacts are red."
     return Result(
         obtained=found,
+        table=_motion_frame(replay),
         caption=caption("fig09"),
         alt="Tracks of both end effectors in space; the slave's solid track runs through a bar of "
         "the window and crosses the master's dashed track, with circles at both places.",
-        figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **_VIEW),
+        figure=lambda: _tracks_figure(tracks_figure, layout, replay, contacts, **how),
         scene=lambda: replays.add_contacts(
             replays.add_replay(stage(title, layout), replay), replay
         ),
@@ -161,13 +175,14 @@ def _avoiding_tracks(
     replay, found = _avoiding(assumed)
     if replay is None:
         return Result(found, _NOTHING)
-    layout = Layout.of(assumed)
+    layout, nearest = Layout.of(assumed), int(replay.apart().argmin())
+    instants = [min(nearest, replay.plan.steps)] if title else _instants(replay.plan.steps)
     return Result(
         obtained=found,
-        table=replay.to_frame(),
+        table=_motion_frame(replay),
         caption=caption(block),
         alt=alt,
-        figure=lambda: _tracks_figure(view, layout, replay, **how),
+        figure=lambda: _tracks_figure(view, layout, replay, instants=instants, **how),
         scene=(lambda: replays.add_replay(stage(title, layout), replay)) if title else None,
     )
 
@@ -203,6 +218,21 @@ def slave_avoids(assumed: Assumed) -> Result:
     )
 
 
+def _motion_frame(replay: Replay) -> pd.DataFrame:
+    """One row per step: end effectors of both arms [m], then their joints, <arm>_q1_rad ..."""
+    joints = {
+        f"{name}_q{j + 1}_rad": angle
+        for name, q in replay.configurations().items()
+        for j, angle in enumerate(q.T)
+    }
+    return replay.to_frame().assign(**joints)
+
+
+def _instants(steps: int) -> list[int]:
+    """Steps at which arms are drawn: a third and two thirds of the way, at multiples of 20."""
+    return [20 * round(share * steps / 20) for share in (1 / 3, 2 / 3)]
+
+
 def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
     """The undisturbed slave beside the master, and how they meet while it moves."""
     case, meeting = Case.of(assumed), assumed["meeting_distance"]
@@ -213,8 +243,12 @@ def _colliding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
 def _avoiding(assumed: Assumed) -> tuple[Replay | None, dict[str, Any]]:
     """The improved slave beside the master, and how they meet until both rest."""
     case, meeting = Case.of(assumed), assumed["meeting_distance"]
-    replay = replay_of(case, slave_plan(case))
-    return replay, _meeting_numbers(replay, meeting, moving=False)
+    replay, alone = replay_of(case, slave_plan(case)), None
+    if replay is not None:
+        alone = replay_of(case, slave_without_master(case))
+    unaware = None if alone is None else float(alone.apart().min() - meeting)
+    found = _meeting_numbers(replay, meeting, moving=False)
+    return replay, found | {"beyond_meeting_unaware": unaware}
 
 
 def _past_window(assumed: Assumed) -> tuple[tuple[Plan, Plan] | None, dict[str, Any]]:

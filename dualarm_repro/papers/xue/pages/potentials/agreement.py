@@ -31,6 +31,8 @@ GRADIENT = Residual("gradient", "relative error of its gradient by central diffe
 _GRADIENTS = 60
 #: Place of a window close to the master's wrist at its start, in the frame of its base [m].
 _CENTRE = (1.4, 0.0, -1.1)
+#: That window, which is passed along x [m].
+WINDOW: dict[str, Any] = {"centre": list(_CENTRE), "opening": [0.5, 0.5], "bar": 0.1}
 #: Only its potentials count; it is never run.
 _PLANNER = PlannerChoice(
     control_points="frames_2_6",
@@ -63,7 +65,9 @@ def sample_problem(
         Fields of a :class:`PlannerChoice` that its potentials depend on.
     """
     placed = PlacedArm("master", load_arm("es165d"), start=master_start(), goal=master_goal())
-    window = window_frame(np.array(_CENTRE), facing((1.0, 0.0, 0.0)), 0.5, 0.5, 0.1, 0.1)
+    bar = WINDOW["bar"]
+    centre, opening = np.array(_CENTRE), WINDOW["opening"]
+    window = window_frame(centre, facing((1.0, 0.0, 0.0)), *opening, bar, bar)  # type: ignore[call-arg]
     obstacles = obstacles_of(Scene([placed], {"window": window}, self_collision=False))
     settings = improved(replace(_PLANNER, **chosen), np.array(virtual_centre), master_goal())
     away = master_start() + np.array([0.8, 0.0, 0.0, 0.0, 0.0, 0.0])

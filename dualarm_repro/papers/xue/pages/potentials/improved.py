@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 
 from .....ledger import Assumed, Is, Residual, Result, Role
 from .....ledger.captions import captions
@@ -17,11 +18,23 @@ from ...motions import master_plan, present
 from ...reading import nominal
 from ...stored import minima_shares
 from . import printed_field as printed
-from .agreement import GRADIENT, VALUE, agreement, checks, choices, sample_problem, samples, worst
+from .agreement import (
+    GRADIENT,
+    VALUE,
+    WINDOW,
+    agreement,
+    checks,
+    choices,
+    sample_problem,
+    samples,
+    worst,
+)
 
 caption = captions(__file__)
 #: Factor by which the unit of length is made smaller; any but 1 would do.
 _UNIT = 2.0
+#: Postures whose forces are exported.
+_EXPORTED = 100
 
 
 @checks(
@@ -157,8 +170,19 @@ def total_potential(assumed: Assumed) -> Result:
     total = printed.total(printed.new_attractions(made, q), printed.summed(repulsive))
     field = made.field_in(initial(made.switch_rules))
     found = agreement("(16)", total, field, q)
+    found.obtained["window"] = WINDOW
     lacking = " Print lacks the term of the virtual point, which acts from the start."
-    return replace(found, caption=found.told() + ("" if len(field.parts) == 2 else lacking))
+    told = found.told() + ("" if len(field.parts) == 2 else lacking)
+    return replace(found, caption=told, table=_forces(made, q[:_EXPORTED]))
+
+
+def _forces(made: PlanningProblem, q: np.ndarray) -> pd.DataFrame:
+    """Joints, total potential and joint forces -dU/dq of (16) at postures (N, 6)."""
+    columns = {f"q{j + 1}_rad": angle for j, angle in enumerate(q.T)}
+    columns["U"] = np.asarray(made.field.value(q))
+    forces = -np.array([made.field.gradient(row) for row in q])
+    columns |= {f"tau{j + 1}": torque for j, torque in enumerate(forces.T)}
+    return pd.DataFrame(columns)
 
 
 @checks(

@@ -15,11 +15,9 @@ from .....view.shares import shares_figure
 from ...outcomes import TRIALS, variant_of
 from ...stored import (
     choice,
-    comparison_table,
     is_declared,
     lottery_table,
     mean_with_interval,
-    starts_clear,
 )
 
 checks = partial(REGISTRY.checks, page="xue/table2")
@@ -43,7 +41,7 @@ def superior(assumed: Assumed) -> Result:
     reading, path = assumed["classical_method"], assumed["path_quality"]
     differences = paired_differences(reading, path)
     found = {name: mean_with_interval(column.dropna()) for name, column in differences.items()}
-    table = lottery_table()[starts_clear()]
+    table = lottery_table()
     methods = {"traditional": variant_of(reading), "improved": "improved"}
     columns = {name: table[f"{method}_missed"] for name, method in methods.items()}
     never = {name: Share.of((column == 0).sum(), len(table)) for name, column in columns.items()}
@@ -51,7 +49,7 @@ def superior(assumed: Assumed) -> Result:
         obtained={
             **found,
             "arrangements": len(table),
-            "left_out": int((~starts_clear()).sum()),
+            "starts_left_out": int(table["starts_touching"].sum()),
             "mean_missed": {name: float(column.mean()) for name, column in columns.items()},
             "never_missed": {name: value._asdict() for name, value in never.items()},
         },
@@ -67,24 +65,22 @@ def superior(assumed: Assumed) -> Result:
 
 
 def paired_differences(reading: str, path: str) -> pd.DataFrame:
-    """Advantage of the improved method in every arrangement without a start in contact.
+    """Advantage of the improved method in every arrangement; no start is in contact.
 
-    Path and steps are compared where both methods arrive; elsewhere they are NaN. The path of the
-    traditional method is that of its usual reading.
+    Path and steps are compared where both methods arrive; elsewhere they are NaN.
 
     Parameters
     ----------
     path
         ``tool_path`` or ``joint_path``: whose length counts.
     """
-    table, old = lottery_table()[starts_clear()], variant_of(reading)
+    table, old = lottery_table(), variant_of(reading)
     never = {name: (table[f"{name}_missed"] == 0).astype(float) for name in (old, "improved")}
-    paths = comparison_table()[starts_clear()]
     return pd.DataFrame(
         {
             "ability": table[f"{old}_missed"] - table["improved_missed"],
             "robustness": never["improved"] - never[old],
-            "quality": np.log(paths[f"traditional_{path}"] / paths[f"improved_{path}"]),
+            "quality": np.log(table[f"{old}_{path}"] / table[f"improved_{path}"]),
             "efficiency": np.log(table[f"{old}_steps_reached"] / table["improved_steps_reached"]),
         }
     )

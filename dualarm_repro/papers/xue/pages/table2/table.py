@@ -13,13 +13,13 @@ from .....errors import InputError
 from .....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result, Role, Rounds
 from .....ledger.captions import captions
 from .....ledger.shares import Share
-from .....planning.trials.stuck import PUSH
 from .....tracking import memo
+from .....view.share_matrix import share_matrix_figure
 from .....view.shares import count_grid_figure, shares_figure
 from ... import stored
 from ...document import METHODS_OF_TABLE_2, table_counts, text_counts
 from ...motions import slave_obstacles
-from ...outcomes import TRIALS, VARIANTS, Outcome, run_variants, starts, summary, variant_of
+from ...outcomes import TRIALS, Outcome, run_variants, starts, summary, variant_of
 from ...reading import Case
 
 checks = partial(REGISTRY.checks, page="xue/table2")
@@ -27,7 +27,9 @@ caption = captions(__file__)
 
 MISS_LABEL = "share of trials that miss the goal"
 #: Assumptions about the trials: reading of the traditional method, variation of starts, seed.
-TRIAL_SETTINGS = ("classical_method", "trial_perturbation", "trial_seed")
+TRIAL_SETTINGS = ("classical_method", "success_criterion", "trial_perturbation", "trial_seed")
+_RULES = {"gradient": "gradient", "neighbour_search": "search"}
+_CRITERION = {"position": "by position", "goal_angles": "by goal angles"}
 
 
 class Trials(NamedTuple):
@@ -38,13 +40,16 @@ class Trials(NamedTuple):
 
 
 @memo(512)
-def trials_of(case: Case, reading: str, half_width: float, seed: int) -> Trials | None:
+def trials_of(
+    case: Case, reading: str, criterion: str, half_width: float, seed: int
+) -> Trials | None:
     """Ten seeded trials; None where the slave has nothing to plan in this arrangement."""
     if slave_obstacles(case) is None:
         return None
-    begin, old = starts(case, half_width, TRIALS, np.random.default_rng(seed)), variant_of(reading)
+    old = variant_of(reading)
     try:
-        runs = run_variants(case, (old, "without_virtual", "improved"), begin)
+        begin = starts(case, half_width, TRIALS, np.random.default_rng(seed))
+        runs = run_variants(case, (old, "without_virtual", "improved"), begin, criterion)
     except InputError:  # the unperturbed start touches an obstacle
         return None
     return Trials(*(summary(case, method, runs[method]) for method in (old, "improved")))
@@ -90,7 +95,7 @@ def both_methods(assumed: Assumed) -> Result:
     """Both readings of the print against ten trials, many trials and the lottery."""
     trials, reading = assumed_trials(assumed), assumed["classical_method"]
     shares, shown = stored.lottery_shares(reading), stored.outcomes_of_table_2(reading)
-    rows, words, many = table_counts(), text_counts(), stored.repeated_shares()
+    rows, words, matrix = table_counts(), text_counts(), stored.table_2_matrix()
     difference = shown["text"].astype(float) - shown["table"]
     return Result(
         obtained={
@@ -99,17 +104,18 @@ def both_methods(assumed: Assumed) -> Result:
             "rows_agree_with_text": rows == words,
             **_counts(trials),
             "text_less_table": stored.mean_with_interval(difference),
-            "many_trials": {rule: _plain(methods) for rule, methods in many.items()},
+            "matrix": {_key(cell): cell.missed._asdict() for cell in matrix},
+            "starts_left_out": stored.touching_starts(),
             "lottery": _plain(shares),
             "lottery_mean_missed": {
                 name: float(stored.missed(name).mean()) for name in (reading, "improved")
             },
         },
-        table=_trial_table(trials),
-        caption=caption("tab02", trials=trials, runs=TRIALS),
-        alt="Bars with intervals: share of trials that miss, per method and rule of the joint "
-        "step.",
-        figure=lambda: shares_figure(_named(many), MISS_LABEL),
+        table=_matrix_table(trials),
+        caption=caption("tab02", trials=trials, runs=TRIALS, spread=_spread(matrix)),
+        alt="Table of shares with intervals: trials that miss the goal, per reading of the method "
+        "and criterion, over rule of the step and variation of the starts; printed counts beside.",
+        figure=lambda: share_matrix_figure(*_matrix(matrix), _printed_beside()),
     )
 
 
@@ -147,11 +153,11 @@ def improved_succeeds(assumed: Assumed) -> Result:
         Is("trials", "number of runs", to="trials"),
         Rounds(
             "held.traditional",
-            "traditional runs that stand still and stay after small pushes",
+            "traditional runs that stand still in a minimum of the potential",
             to="trapped",
         ),
         Rounds("missed.traditional", "traditional runs that do not arrive", to="trapped"),
-        Bounded("unproved", "runs called trapped whose gradient does not vanish", high=0),
+        Bounded("unproved", "runs called trapped that are not held in a minimum", high=0),
     ],
     samples=32,
 )
@@ -161,13 +167,13 @@ def traditional_trapped(assumed: Assumed) -> Result:
     found = stored.lottery_shares(reading)["traditional_mostly_held"]
     old = None if trials is None else trials.traditional
     witnesses = trapped_witnesses(reading)
-    values = {"many": max(text_counts().values()), "push": PUSH, "witnesses": witnesses}
+    values = {"many": max(text_counts().values()), "witnesses": witnesses}
     left = stored.held_share(variant_of(reading))
     return Result(
         obtained={
             "trials": TRIALS,
             **_counts(trials),
-            "unproved": None if old is None else old.trapped - old.stationary,
+            "unproved": None if old is None else old.trapped - old.held,
             "largest_gradient": None if old is None else old.gradient,
             "lottery": found._asdict(),
         },
@@ -182,10 +188,10 @@ def traditional_trapped(assumed: Assumed) -> Result:
 def trapped_witnesses(reading: str) -> list[dict[str, Any]]:
     """A declared arrangement of the lottery with the outcome of the text, if there is one.
 
-    As many traditional runs as the text prints are held, all where the gradient vanishes, and no
-    other is missed; no improved run misses.
+    As many traditional runs as the text prints are held in a minimum, and no other is missed; no
+    improved run misses.
     """
-    table, words, name = stored.lottery_table(), text_counts(), variant_of(reading)
+    table, words = stored.lottery_table(), text_counts()
     methods = {"traditional": reading, "improved": "improved"}
     held = {name: stored.held(one) for name, one in methods.items()}
     missed = {name: stored.missed(one) for name, one in methods.items()}
@@ -194,7 +200,6 @@ def trapped_witnesses(reading: str) -> list[dict[str, Any]]:
         & (held["traditional"] == words["traditional"])
         & (missed["traditional"] == words["traditional"])
         & (missed["improved"] == words["improved"])
-        & (table[f"{name}_stationary"] == table[f"{name}_trapped"]).to_numpy()
     )
     for k in np.flatnonzero(shown):
         seen = {"held": held, "missed": missed}
@@ -222,24 +227,68 @@ def _plain(shares: Mapping[str, Share]) -> dict[str, dict[str, float]]:
     return {name: share._asdict() for name, share in shares.items()}
 
 
-def _named(shares: Mapping[str, Mapping[str, Share]]) -> dict[str, dict[str, Share]]:
-    """Shares by rule and method under the titles of both."""
-    return {
-        rule.replace("_", " "): {VARIANTS[name].title: share for name, share in row.items()}
-        for rule, row in shares.items()
-    }
+def _key(cell: stored.Cell) -> str:
+    parts = (cell.method, cell.criterion, cell.update_rule, f"{cell.half_width:g}")
+    return " ".join(parts)
 
 
-def _trial_table(trials: Trials | None) -> pd.DataFrame | None:
-    if trials is None:
-        return None
-    table, words, rows = table_counts(), text_counts(), []
-    for name, found in trials._asdict().items():
-        _, low, high = Share.of(found.missed, found.runs)
+def _spread(matrix: tuple[stored.Cell, ...]) -> dict[str, float]:
+    """Smallest and largest share of traditional runs that miss, over all cells."""
+    shares = [cell.missed.value for cell in matrix if cell.method != "improved"]
+    return {"low": min(shares), "high": max(shares)}
+
+
+def _matrix(matrix: tuple[stored.Cell, ...]) -> tuple[dict[str, dict[str, Share]], str]:
+    """Rows by method and criterion, columns by rule of the step and half width of the starts."""
+    rows: dict[str, dict[str, Share]] = {}
+    for cell in matrix:
+        row = rows.setdefault(_row_title(cell.method, cell.criterion), {})
+        row[f"{_RULES[cell.update_rule]}\n{cell.half_width:g} rad"] = cell.missed
+    return rows, "trials that miss the goal, with 95 % interval [%]"
+
+
+def _row_title(method: str, criterion: str) -> str:
+    return f"{_METHODS[method]}, {_CRITERION[criterion]}"
+
+
+_METHODS = {
+    "traditional": "traditional, end effector",
+    "five_points": "traditional, five points",
+    "cartesian_ik": "traditional, point and IK",
+    "improved": "improved",
+}
+
+
+def _printed_beside() -> dict[str, str]:
+    """What print has on either method: traps by the text and by the table, and the time."""
+    table, words = table_counts(), text_counts()
+    beside = {}
+    for name, method, criterion in (
+        ("traditional", "traditional", "position"),
+        ("improved", "improved", "goal_angles"),
+    ):
         seconds = REGISTRY.printed("xue.tab02")[name]["mean_time"]
-        readings = {"text": words[name], "table": table[name], "printed_time_s": float(seconds)}
-        interval = {"missed_low": low, "missed_high": high}
-        rows.append({"method": name, **readings, **found._asdict(), **interval})
+        text = f"print: {words[name]} (text), {table[name]} (table) of {TRIALS}; {seconds} s"
+        beside[_row_title(method, criterion)] = text
+    return beside
+
+
+def _matrix_table(trials: Trials | None) -> pd.DataFrame:
+    """Ten trials of both methods beside print, then every cell of the matrix."""
+    table, words, rows = table_counts(), text_counts(), []
+    for name in METHODS_OF_TABLE_2:
+        seconds = float(REGISTRY.printed("xue.tab02")[name]["mean_time"])
+        printed = {"text": words[name], "table": table[name], "printed_time_s": seconds}
+        found = {} if trials is None else getattr(trials, name)._asdict()
+        rows.append({"method": name, "sample": "ten trials", **printed, **found})
+    for cell in stored.table_2_matrix():
+        shares = {
+            f"{field}_{end}": value
+            for field in ("missed", "held")
+            for end, value in getattr(cell, field)._asdict().items()
+        }
+        said = {k: v for k, v in cell._asdict().items() if k not in ("missed", "held")}
+        rows.append({"sample": "matrix", **said, **shares})
     return pd.DataFrame(rows)
 
 

@@ -1,0 +1,167 @@
+"""`xue` recomputed from its exported files alone: clearances, forces, Table 2."""
+
+import ast
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from chains import Chain
+from descents import Field, descend
+from exported import Export, columns, number
+from fields import Boxes, to_points
+
+MATRICES = [f"xue.eq0{k}" for k in range(2, 8)]
+SLAVE_ENDS = ("xue.claim_slave_start", "xue.claim_slave_end")
+FIGURES = ("xue.fig08", "xue.fig09", "xue.fig10", "xue.fig11")
+POINTS = range(2, 7)  # frames of the five distances of (15)
+
+
+@pytest.fixture(scope="module")
+def xue(tmp_path_factory):
+    inputs = ("xue.claim_gains", "xue.claim_master_start", "xue.claim_master_goal", *SLAVE_ENDS)
+    ids = (*MATRICES, *inputs, *FIGURES, "xue.eq16", "xue.tab02")
+    return Export.of(ids, tmp_path_factory.mktemp("xue"))
+
+
+@pytest.fixture(scope="module")
+def matrices(xue):
+    return [xue.record(item_id)["printed"]["matrix"] for item_id in MATRICES]
+
+
+@pytest.fixture(scope="module")
+def layout(xue):
+    return xue.assumed("xue.fig11")
+
+
+def chains(matrices, layout):
+    """Master and slave on their bases."""
+    base = np.array([layout[f"master_base_{axis}"] for axis in "xyz"])
+    beside = base - [0.0, layout["base_distance"], 0.0]
+    return Chain.of_cells(matrices, base), Chain.of_cells(matrices, beside, mirror=-1.0)
+
+
+def window(layout, ends):
+    """The four bars."""
+    chord = np.append((ends[1] - ends[0])[:2], 0.0)
+    normal = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "chord": chord}[layout["window_normal"]]
+    centre = [layout[f"window_centre_{axis}"] for axis in "xyz"]
+    opening = layout["window_opening_width"], layout["window_opening_height"]
+    return Boxes.window(centre, normal, opening, layout["window_bar"])
+
+
+def printed_ends(xue):
+    return [np.array([number(t) for t in xue.record(i)["printed"]["position"]]) for i in SLAVE_ENDS]
+
+
+def printed_gains(xue):
+    return {name: number(text) for name, text in xue.record("xue.claim_gains")["printed"].items()}
+
+
+def joints(table, prefix="", suffix=""):
+    return columns(table, *(f"{prefix}q{j}{suffix}" for j in range(1, 7)))
+
+
+def test_nothing_of_the_library_is_imported_here():
+    here, allowed = Path(__file__).parent, {"numpy", "pytest", *sys.stdlib_module_names}
+    allowed |= {path.stem for path in here.glob("*.py")}
+    for path in here.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or "."] if isinstance(node, ast.ImportFrom) else []
+            assert {name.partition(".")[0] for name in names} <= allowed, path.name
+
+
+def test_clearance_of_the_master_in_figure_8(xue, matrices, layout):
+    table, (master, _) = xue.table("xue.fig08"), chains(matrices, layout)
+    bars = window(layout, printed_ends(xue))
+    start, goal = (
+        [number(t) for t in xue.record(f"xue.claim_master_{end}")["printed"]["q"]]
+        for end in ("start", "goal")
+    )
+    path = joints(table)
+    np.testing.assert_allclose(path[0], start, atol=1e-12)
+    assert np.abs(path[-1] - goal).max() <= layout["goal_tolerance"]
+    nearest = np.array([bars.distances(master.origins(q, POINTS))[0].min(axis=1) for q in path])
+    recorded = columns(table, *(f"clearance frame_{k}" for k in POINTS))
+    np.testing.assert_allclose(nearest, recorded, atol=1e-9)
+    assert nearest.min() == pytest.approx(xue.obtained("xue.fig08")["distance"], rel=1e-5)
+
+
+@pytest.mark.parametrize("figure", FIGURES[1:])
+def test_clearances_of_the_slave_in_figures_9_to_11(xue, matrices, layout, figure):
+    table, found = xue.table(figure), xue.obtained(figure)
+    arms, bars = chains(matrices, layout), window(layout, printed_ends(xue))
+    tips = {}
+    for name, chain in zip(("master", "slave"), arms, strict=True):
+        tips[name] = np.array([chain.origins(q, [6])[0] for q in joints(table, f"{name}_", "_rad")])
+        np.testing.assert_allclose(
+            tips[name], columns(table, *(f"{name}_{axis}_m" for axis in "xyz")), atol=1e-9
+        )
+    moving = found["steps"] + 1 if figure == "xue.fig09" else None
+    apart = np.linalg.norm(tips["master"] - tips["slave"], axis=1)[:moving]
+    to_bars = bars.distances(tips["slave"])[0].min()
+    assert apart.min() == pytest.approx(found["flanges_apart"], rel=1e-5)
+    assert to_bars == pytest.approx(found["flange_window"], rel=1e-5)
+
+
+def test_forces_at_a_hundred_postures(xue, matrices):
+    table, window_ = xue.table("xue.eq16"), xue.obtained("xue.eq16")["window"]
+    bars = Boxes.window(window_["centre"], (1.0, 0.0, 0.0), window_["opening"], window_["bar"])
+    goal = np.array([number(t) for t in xue.record("xue.claim_master_goal")["printed"]["q"]])
+    field = Field(Chain.of_cells(matrices), goal, tuple(POINTS), 1.0, bars, np.empty(0),
+                  printed_gains(xue))  # fmt: skip
+    q = joints(table, suffix="_rad")
+    assert len(q) == 100
+    found = [field.value_and_gradient(row, 0, False) for row in q]
+    np.testing.assert_allclose([value for value, _ in found], table["U"], rtol=1e-9)
+    forces = columns(table, *(f"tau{j}" for j in range(1, 7)))
+    np.testing.assert_allclose(-np.array([g for _, g in found]), forces, rtol=1e-8, atol=1e-8)
+
+
+def test_table_2(xue, matrices, layout):
+    assumed, found = xue.assumed("xue.tab02"), xue.obtained("xue.tab02")
+    assert assumed["master_as_obstacle"] == "joint_points"
+    assert assumed["equal_speed_meaning"] == "same_step"
+    master, slave = chains(matrices, layout)
+    track = np.array([master.origins(q, POINTS) for q in joints(xue.table("xue.fig08"))])
+    start, goal = (np.array(xue.obtained(item_id)["q"]) for item_id in SLAVE_ENDS)
+    bars, gains = window(layout, printed_ends(xue)), printed_gains(xue)
+    centre = np.array([layout[f"window_centre_{axis}"] for axis in "xyz"])
+    assert assumed["success_criterion"] == "position"
+    rng, width = np.random.default_rng(assumed["trial_seed"]), assumed["trial_perturbation"]
+    starts = clear_starts(slave, bars, start, width, rng)
+    settings = {
+        "step_limit": assumed["step_limit"], "threshold": assumed["stuck_threshold"],
+        "release": assumed["virtual_release"], "tolerance": assumed["goal_tolerance"],
+        "gain": assumed["step_gain"], "max_step": assumed["max_step"],
+    }  # fmt: skip
+    at_the_tool, points = assumed["classical_method"] == "end_effector", tuple(POINTS)
+    fields = {
+        "traditional": ((6,) if at_the_tool else points, 0.0, None),
+        "improved": (points, assumed["joint_term_weight"], centre),
+    }
+    missed = {}
+    for name, (frames, weight, virtual) in fields.items():
+        field = Field(slave, goal, frames, weight, bars, track, gains, virtual)
+        missed[name] = sum(not descend(field, begin, settings)[0] for begin in starts)
+    assert missed == {name: found["missed"][name] for name in missed}
+
+
+def clear_starts(slave, bars, start, width, rng):
+    """Ten starts around one, of which no point touches a bar, from blocks of ten."""
+    found = []
+    while len(found) < 10:
+        for q in start + rng.uniform(-width, width, (10, 6)):
+            if bars.distances(slave.origins(q, POINTS))[0].min() > 0.0 and len(found) < 10:
+                found.append(q)
+    return np.array(found)
+
+
+def test_a_changed_file_is_noticed(matrices, layout, xue):
+    table = xue.table("xue.fig08")
+    bars, (master, _) = window(layout, printed_ends(xue)), chains(matrices, layout)
+    q = joints(table)[40] + 1e-6
+    recorded = table["clearance frame_6"][40]
+    assert abs(bars.distances(master.origins(q, [6]))[0].min() - recorded) > 1e-9
+    assert to_points(np.zeros((1, 3)), np.array([[3.0, 4.0, 0.0]]))[0][0, 0] == 5.0
