@@ -54,7 +54,8 @@ def test_deleted_item_is_missed(registry, tmp_path):
     text = data_path("papers", "xue.yaml").read_text(encoding="utf-8")
     start = text.index("  claim_mirror:\n")
     end = text.index("  claim_mc_points:\n", start)
-    (tmp_path / "xue.yaml").write_text(text[:start] + text[end:], encoding="utf-8")
+    last = text.index("\nsentences:\n")  # which name the item and would be refused first
+    (tmp_path / "xue.yaml").write_text(text[:start] + text[end:last] + "\n", encoding="utf-8")
     cut = Registry(tmp_path)
     cut.checkers.update(registry.checkers)
     assert "xue.claim_mirror: in the inventory, not in data/papers" in gaps(cut, read_inventory())
