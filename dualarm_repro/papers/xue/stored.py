@@ -39,7 +39,7 @@ def missed(method: str) -> np.ndarray:
 
 
 def held(method: str) -> np.ndarray:
-    """Runs of ten that stand still and stay after small pushes, per arrangement."""
+    """Runs of ten that stand still in a true minimum, per arrangement."""
     return lottery_table()[f"{variant_of(method)}_held"].to_numpy()
 
 
@@ -89,7 +89,7 @@ def _share(rows: pd.DataFrame, method: str, part: str, whole: str) -> Share:
 
 
 def held_share(method: str) -> Share:
-    """Share of the runs that stand still which stay after small pushes too."""
+    """Share of the runs that stand still which do so in a true minimum."""
     return _share(lottery_table(), method, "held", "trapped")
 
 
