@@ -175,12 +175,15 @@ def test_the_counts_change_with_the_perturbation():
     assert counts[1] < 8
 
 
-def test_a_window_elsewhere_leaves_fig_9_nothing_to_show():
+def test_a_window_elsewhere_leaves_fig_9_one_contact():
     names = run("xue/scene").names
     case, margins = names["case"], names["demands"].margins
     there = case._replace(layout=replace(case.layout, window_centre_y=0.8))
     facts = names["radius"], names["meeting"]
-    assert margins(case, *facts)["enters_bar"] > 0.0 > margins(there, *facts)["enters_bar"]
+    here, moved = margins(case, *facts), margins(there, *facts)
+    assert here["enters_bar"] > 0.0
+    assert moved["enters_bar"] < -names["demands"].DEPTH  # outside of every bar
+    assert moved["meets"] > 0.0
 
 
 def test_the_start_lies_inside_the_cloud_of_an_arm_without_limits():
