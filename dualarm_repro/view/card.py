@@ -5,6 +5,7 @@ from __future__ import annotations
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from io import BytesIO
+from textwrap import wrap
 from typing import Any
 
 from markupsafe import Markup
@@ -35,6 +36,7 @@ from .wording import (
 
 #: A figure whose drawing would be larger than this is shown as pixels.
 _LARGEST_SVG = 400_000
+_LETTERS, _ROW = 110, 0.16  # of a line of the card of an item without a figure, and its height [in]
 _INNER_DPI = 144  # of clouds and surfaces, which are pixels within a drawing
 _FIGURE = Markup(
     '<figure class="ledger-figure"><p class="ledger-finding">{}</p>'
@@ -182,15 +184,17 @@ def card_figure(made: dict[str, Any]) -> Any:
         ["", made["pending"] or ""]
     ]
     with house_style():
-        figure, ax = plt.subplots(figsize=(WIDTH, 0.8 + 0.3 * len(rows)))
-        ax.axis("off")
-        ax.set_title(f"{made['id']}: {made['verdict']}", color=BLACK, loc="left")
-        cells = [[_cut(cell) for cell in row] for row in rows]
-        header = ["", "statement"]
-        table = ax.table(cells, colLabels=header, loc="upper center", cellLoc="left")
-        table.auto_set_font_size(False)
-        table.set_fontsize(SMALL)
-        table.auto_set_column_width(list(range(len(header))))
+        told = [(sign, wrap(text, _LETTERS) or [""]) for sign, text in rows]
+        height = 0.5 + _ROW * sum(len(lines) + 0.5 for _, lines in told)
+        figure = plt.figure(figsize=(WIDTH, height))
+        title = f"{made['id']}: {made['verdict']}"
+        figure.text(0.0, 1.0, title, color=BLACK, weight="bold", va="top")
+        y = height - 0.4
+        for sign, lines in told:
+            below = y / height
+            figure.text(0.01, below, sign, color=BLACK, fontsize=SMALL, va="top")
+            figure.text(0.04, below, "\n".join(lines), color=BLACK, fontsize=SMALL, va="top")
+            y -= _ROW * (len(lines) + 0.5)
     return figure
 
 
@@ -210,7 +214,3 @@ def robustness_text(found: dict[str, Any], verdict: str, decided_by: str | None 
         f"{short(flip['nominal'])} to {short(flip['value'])}, giving "
         f"{flip['verdict']}."
     )
-
-
-def _cut(text: str, limit: int = 60) -> str:
-    return text if len(text) <= limit else text[: limit - 1] + "…"

@@ -4,7 +4,7 @@ Standard convention: A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i). A capsule of
 the frame before d_i, after theta_i.
 """
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import yaml
@@ -107,6 +107,23 @@ def arm_to_arm(one, q, other, p):
         if first["joint"] or second["joint"]
     ]
     return min(pairs)
+
+
+def to_itself(arm, q, pairs):
+    """Smallest distance of the links of an arm to each other, in these pairs."""
+    ends, radii = arm.cores(q), arm.radii
+    return min(segment_distance(*ends[i], *ends[k]) - radii[i] - radii[k] for i, k in pairs)
+
+
+def apart_somewhere(arm):
+    """Pairs of links that are no neighbours and do not overlap in every posture."""
+    postures = np.random.default_rng(0).uniform(*arm.limits.T, (40, len(arm.limits)))
+    return [
+        (i, k)
+        for (i, one), (k, other) in combinations(enumerate(arm.capsules), 2)
+        if other["joint"] - one["joint"] > 1
+        and max(to_itself(arm, q, [(i, k)]) for q in postures) > 0.0
+    ]
 
 
 def arm_to_spheres(arm, q, centres, radius):

@@ -2,12 +2,13 @@
 
 import re
 
+import matplotlib.pyplot as plt
 import pytest
 from bs4 import BeautifulSoup
 
 from dualarm_repro.ledger import record
 from dualarm_repro.view.badge import badge, badge_of, percent
-from dualarm_repro.view.card import card_html, robustness_text
+from dualarm_repro.view.card import card_figure, card_html, robustness_text
 from dualarm_repro.view.firmness import firmness_svg
 from dualarm_repro.view.wording import search_lines, verdict_line
 
@@ -115,3 +116,19 @@ def test_card_shows_witnesses_thresholds_and_the_statement_that_decides(made):
         "The properties hold in 5 %",
     ):
         assert words in " ".join(text.split()), words
+
+
+def test_the_figure_of_a_card_cuts_no_statement(made):
+    label = "a statement that is longer than a line of the figure holds " * 4
+    long = made | {"checks": [{**made["checks"][0], "label": label.strip()}]}
+    figure = card_figure(long)
+    words = " ".join(text.get_text() for text in figure.texts).split()
+    assert " ".join(words).lower().count("a line of the figure holds") == 4
+    figure.draw_without_rendering()
+    width, _ = figure.canvas.get_width_height()
+    for text in figure.texts:
+        box = text.get_window_extent()
+        assert box.x1 <= width
+        assert box.y0 >= 0
+        assert text.get_fontsize() >= 8.0
+    plt.close(figure)

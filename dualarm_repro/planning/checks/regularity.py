@@ -42,7 +42,8 @@ def follow_line(arm: Arm, start: ArrayLike, goal: ArrayLike) -> Line:
     kinematics.
 
     Joint limits are not looked at: the line ends beyond the straight arm, or where the nearest
-    posture is a jump away, which between two samples only a singular posture can cause.
+    posture is a jump away, which between two samples so close takes a posture that is nearly
+    singular.
 
     Raises
     ------

@@ -3,7 +3,8 @@
 0 = F_att + F_rep = zeta (a + r p) with r = eta_0/zeta > 0 has a solution r at a posture if and only
 if a and p are opposed: a/|a| + p/|p| = 0. The ratio then is r = |a|/|p|, and there is no other. So
 the search for an equilibrium over all ratios is one for postures and goals that oppose both forces,
-by nonlinear least squares from many starts (J. J. More, The Levenberg-Marquardt algorithm, 1978).
+by nonlinear least squares within bounds from several starts (M. A. Branch, T. F. Coleman, Y. Li,
+SIAM J. Sci. Comput. 21, 1999).
 """
 
 from __future__ import annotations
@@ -80,7 +81,10 @@ def nearest_equilibria(
     starts: Iterable[np.ndarray],
     bounds: tuple[np.ndarray, np.ndarray],
 ) -> list[Equilibrium]:
-    """The nearest equilibrium from each start (n,) within ``bounds`` that can be placed."""
+    """What few steps of descent reach from each start (n,) within ``bounds`` that can be placed.
+
+    Near an equilibrium if there is one around, and no proof that there is none elsewhere.
+    """
 
     def residual(x: np.ndarray) -> np.ndarray:
         placed = place(x)
