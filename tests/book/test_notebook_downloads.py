@@ -48,15 +48,6 @@ def test_a_page_with_its_outputs():
     assert nbformat.writes(again) == nbformat.writes(made)
 
 
-def test_scenes_are_left_to_the_run():
-    frame = '<iframe class="ledger-scene" srcdoc="..."></iframe>'
-    scene = f"<figure>{frame}<figcaption>c</figcaption></figure>"
-    made = notebook_downloads.notebook(PAGE, "page", ran(scene))
-    text = made.cells[2].outputs[0].data["text/html"]
-    assert "iframe" not in text
-    assert "<figcaption>c</figcaption>" in text
-
-
 def test_outputs_of_other_cells_are_refused():
     with pytest.raises(ExtensionError, match="page: the executed cells"):
         notebook_downloads.notebook(PAGE.replace("1 + 1", "1 + 2"), "page", ran("<b>2</b>"))

@@ -7,14 +7,22 @@ import pytest
 from dualarm_repro.ledger import kept
 
 
-def test_a_changed_run_says_what_was_changed_and_stores_nothing(dualarm, tmp_path, monkeypatch):
+@pytest.fixture
+def declared(registry):
+    """The declared distance of the bases [m]."""
+    return registry.nominal("xue")["base_distance"]
+
+
+def test_a_changed_run_says_what_was_changed_and_stores_nothing(
+    dualarm, declared, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     before = json.loads(dualarm("show", "xue.claim_overlap", "--json")[1])
     place = kept.path_of("records", "xue.claim_overlap")
     stored = place.read_bytes() if place else b""
     code, out, _ = dualarm("run", "xue.claim_overlap", "--set", "base_distance=6.5")
     assert code == 0
-    assert "changed: base_distance = 6.5 m (2.86 in the ledger; plausible" in out
+    assert f"changed: base_distance = 6.5 m ({declared} in the ledger; plausible" in out
     assert "this is outside" in out
     assert "verdict: not-reproduced with these values alone; reproduced-under-assumption" in out
     assert "again: dualarm run xue.claim_overlap --set=base_distance=6.5" in out
@@ -25,7 +33,7 @@ def test_a_changed_run_says_what_was_changed_and_stores_nothing(dualarm, tmp_pat
     assert json.loads(dualarm("show", "xue.claim_overlap", "--json")[1]) == before
 
 
-def test_files_of_a_changed_run_say_so(dualarm, tmp_path):
+def test_files_of_a_changed_run_say_so(dualarm, declared, tmp_path):
     setting = ("--set", "base_distance=3.0", "--out", tmp_path, "--json")
     code, out, _ = dualarm("run", "xue.claim_overlap", *setting)
     assert code == 0
@@ -36,7 +44,7 @@ def test_files_of_a_changed_run_say_so(dualarm, tmp_path):
     assert (change["assumption"], change["value"], change["nominal"]) == (
         "base_distance",
         3.0,
-        2.86,
+        declared,
     )
     assert written["nominal"]["obtained"] != written["obtained"]
     assert str(tmp_path / "xue.claim_overlap.png") in made["files"]

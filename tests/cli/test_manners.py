@@ -119,7 +119,8 @@ def test_help_and_version_import_next_to_nothing():
 def test_show_of_a_kept_record_imports_no_method(dualarm):
     dualarm("show", "xue.tab01")  # so that there is one
     modules = imported("show", "xue.tab01")
-    assert not {name.partition(".")[0] for name in modules} & HEAVY
+    found = {name.partition(".")[0] for name in modules}
+    assert not found & (HEAVY - {"jinja2"})  # what is obtained is told by a template
     assert not any(name.startswith("dualarm_repro.papers.xue") for name in modules)
 
 

@@ -14,7 +14,6 @@ from dualarm_repro.view.item_files import (
     address,
     beside_page,
     links,
-    scene_beside_page,
     where,
     write_files,
 )
@@ -74,16 +73,6 @@ def test_files_are_written_and_linked(tmp_path, registry):
     assert written[2].read_bytes() == b"<svg/>"
     assert 'data-content_root="../"' in written[3].read_text()
     assert f'src="../items/{ITEM}.svg"' in beside_page(DRAWN["figure"], links(made, DRAWN, "../"))
-
-
-def test_the_scene_of_an_own_page_is_the_file_beside_it():
-    scene = (
-        '<figure><iframe class="s" srcdoc="&lt;p&gt;"></iframe><figcaption>c</figcaption></figure>'
-    )
-    found = scene_beside_page(scene, [("scene.html", "../items/a.b.scene.html")])
-    frame = '<iframe class="s" src="../items/a.b.scene.html"></iframe>'
-    assert found == f'<figure class="ledger-figure">{frame}</figure>'
-    assert scene_beside_page("<p>no frame</p>", []) == "<p>no frame</p>"
 
 
 def test_the_page_can_be_opened_where_it_is_built(tmp_path):
