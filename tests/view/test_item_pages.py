@@ -49,8 +49,13 @@ def test_what_matters_comes_first():
 
 
 def test_the_command_that_changes_an_assumption():
-    assert rerun({**FULL, "robustness": ROBUST}) == "dualarm run toy.x --set width=1.5"
-    assert rerun({**FULL, "robustness": {**ROBUST, "flip": None}}) is None
+    flipped = "dualarm run toy.x --set width=1.5", "with the choice that flips it"
+    assert rerun({**FULL, "robustness": ROBUST}) == flipped
+    firm = {**FULL, "robustness": {**ROBUST, "flip": None}}
+    assert rerun(firm) is None, "no assumption has another plausible value"
+    one = {"id": "reading", "value": "a", "choices": ["a", "b"]}
+    changed = "dualarm run toy.x --set reading=b", "with an assumption changed"
+    assert rerun({**firm, "assumptions": [one]}) == changed
 
 
 def test_source_is_that_of_the_function(registry):

@@ -66,7 +66,7 @@ def test_a_wall_holds_an_arm(case):
     found = summary(case, "traditional", run_variant(case, "traditional", begin))
     assert found.held <= found.trapped
     closed = replace(
-        case.layout, window_opening_width=0.02, window_opening_height=0.02, window_bar=0.4
+        case.layout, window_opening_width=0.02, window_opening_height=0.02, window_bar=0.8
     )
     wall = case._replace(layout=closed)
     found = summary(wall, "traditional", run_variant(wall, "traditional", begin))
