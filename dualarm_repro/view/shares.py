@@ -25,6 +25,8 @@ from .style import (
 )
 
 _LETTERS = 30  # of a name before it is broken
+#: Letters of a legend across the figure, and those that a sample of a colour takes.
+_LINE, _SAMPLE = 96, 6
 _BAR = 0.2  # height of a bar with its number [in]
 
 
@@ -58,7 +60,9 @@ def shares_figure(
         ax.set(xlabel=f"{xlabel} [%]", xlim=(0, 108), xticks=range(0, 101, 20))
         ax.grid(axis="y", visible=False)
         if mark or len(groups) > 1:
-            figure.legend(loc="outside upper left", ncols=min(len(groups) + bool(mark), 3))
+            names = [*groups, mark[1]] if mark else groups
+            columns = _LINE // (max(map(len, names)) + _SAMPLE)
+            figure.legend(loc="outside upper left", ncols=max(1, min(len(names), columns, 3)))
     return figure
 
 

@@ -279,7 +279,8 @@ def _interval(ax: Any, ends: np.ndarray, row: float) -> None:
 
 def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """For every measure that stays open, an arrangement of either kind."""
-    table = paths_table().loc[differences.index]
+    table = paths_table()
+    table = table[table.index.isin(differences.index)]
     declared = is_declared(table)
     witnesses = []
     for name, one in found.items():
@@ -287,8 +288,8 @@ def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> l
         if one["low"] <= edge <= one["high"]:
             column = differences[name].where(declared)
             for k, verdict in ((column.idxmax(), "holds"), (column.idxmin(), "fails")):
-                judged = {name: float(column[k])}
-                row = table.loc[k, list(Layout.names())]
+                judged = {name: float(column.loc[[k]].iloc[0])}
+                row = table.loc[[k], list(Layout.names())].iloc[0]
                 values = {n: v.item() if isinstance(v, np.generic) else v for n, v in row.items()}
                 where = f"arrangement {k} of {PATHS.name}"
                 witnesses.append(
