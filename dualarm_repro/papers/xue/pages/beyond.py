@@ -98,7 +98,7 @@ def free_by_obstacles() -> dict[str, dict[str, Share]]:
     """Share of scenes with a motion certified free, by number of obstacles and planner."""
     table = planners_table()
     return {
-        f"{count} added" if count else "the window alone": {
+        f"window and {count} more" if count else "the window alone": {
             title: Share.of(_count(rows, name), len(rows)) for name, title in METHODS.items()
         }
         for count, rows in table.groupby("spheres")
