@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from ..errors import UnsupportedArmError
 from ..planning.methods import METHODS, AnyPlan, plan_file
 from ..scene import clearance
 from .page import Page
@@ -48,10 +49,17 @@ def plan_summary(plan: AnyPlan) -> dict[str, Any]:
 
 
 def compare_methods(path: str | Path) -> pd.DataFrame:
-    """Outcome of every method on a task file: arms that arrive, and how close whole links come."""
-    rows = {}
+    """Outcome of every method on a task file: arms that arrive, and how close whole links come.
+
+    A method that does not take one of the arms says why.
+    """
+    rows: dict[str, dict[str, Any]] = {}
     for name in METHODS:
-        plan = plan_file(path, name)
+        try:
+            plan = plan_file(path, name)
+        except UnsupportedArmError as refusal:
+            rows[name] = {"arrive": f"not for these arms ({refusal})"}
+            continue
         links = plan.links(CHECK_STEP)
         rows[name] = {
             "arrive": ", ".join(arm for arm, one in plan.plans.items() if one.reached) or "none",
@@ -59,7 +67,7 @@ def compare_methods(path: str | Path) -> pd.DataFrame:
             "smallest distance [m]": round(links.minimum, 4),
             "between": " - ".join(links.nearest[0]) if links.pairs else "",
         }
-    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method").fillna("")
 
 
 def plan_page(plan: AnyPlan, title: str) -> Page:

@@ -8,8 +8,8 @@ import pytest
 
 HERE = Path(__file__).parent
 SOURCES = sorted(HERE.glob("*.py"))
-#: numpy computes; the others read files.
-ALLOWED = {"numpy", "pandas", "pytest", "yaml", *sys.stdlib_module_names}
+#: numpy computes; yaml reads the capsules of an arm, which no export holds.
+ALLOWED = {"numpy", "pytest", "yaml", *sys.stdlib_module_names}
 
 
 def imported(text):

@@ -6,6 +6,7 @@ from chains import Chain
 from descents import Field, descend
 from exported import Export, columns, number
 from fields import Boxes, to_points
+from replayed_arm import segment_distance
 
 MATRICES = [f"xue.eq0{k}" for k in range(2, 8)]
 SLAVE_ENDS = ("xue.claim_slave_start", "xue.claim_slave_end")
@@ -16,7 +17,7 @@ POINTS = range(2, 7)  # frames of the five distances of (15)
 @pytest.fixture(scope="module")
 def xue(tmp_path_factory):
     inputs = ("xue.claim_gains", "xue.claim_master_start", "xue.claim_master_goal", *SLAVE_ENDS)
-    ids = (*MATRICES, *inputs, *FIGURES, "xue.eq16", "xue.tab02")
+    ids = (*MATRICES, *inputs, *FIGURES, "xue.eq16", "xue.tab02", "xue.claim_only_tcp")
     return Export.of(ids, tmp_path_factory.mktemp("xue"))
 
 
@@ -89,6 +90,68 @@ def test_clearances_of_the_slave_in_figures_9_to_11(xue, matrices, layout, figur
     to_bars = bars.distances(tips["slave"])[0].min()
     assert apart.min() == pytest.approx(found["flanges_apart"], rel=1e-5)
     assert to_bars == pytest.approx(found["flange_window"], rel=1e-5)
+
+
+def links(chain, q):
+    """Ends of the five links that have a length (5, 2, 3) [m]: the fourth begins where the arm of
+    frame 4 leaves the elbow, at the foot of its origin on x of frame 3."""
+    made, places = chain.frames(q), chain.origins(q, range(7))
+    offset = np.linalg.inv(made[3]) @ made[4][:, 3]
+    elbow = (made[3] @ [offset[0], 0.0, 0.0, 1.0])[:3] * [1.0, chain.mirror, 1.0] + chain.base
+    ends = [(places[1], places[2]), (places[2], places[3]), (places[3], elbow),
+            (elbow, places[4]), (places[5], places[6])]  # fmt: skip
+    return np.array(ends)
+
+
+LINK_NAMES = [f"capsule_{k}_joint_{joint}" for k, joint in enumerate((1, 2, 3, 4, 6))]
+
+
+def test_whole_links_of_the_two_arms(xue, matrices, layout):
+    """Every pair of links at every step of Fig. 11, and the smallest, with and without the tips."""
+    motion, recorded = xue.table("xue.fig11"), xue.table("xue.claim_only_tcp")
+    ends = [
+        [links(chain, q) for q in joints(motion, f"{name}_", "_rad")]
+        for name, chain in zip(("master", "slave"), chains(matrices, layout), strict=True)
+    ]
+    found = np.array([
+        [[segment_distance(*one, *other) for other in slave] for one in master]
+        for master, slave in zip(*ends, strict=True)
+    ])  # fmt: skip
+    for i, first in enumerate(LINK_NAMES):
+        for k, second in enumerate(LINK_NAMES):
+            there = recorded[f"master/{first} - slave/{second}"]
+            np.testing.assert_allclose(found[:, i, k], there, atol=1e-6)
+    obtained = xue.obtained("xue.claim_only_tcp")
+    assert found.min() == pytest.approx(obtained["nominal"]["arms"], abs=1e-6)
+    found[:, -1, -1] = np.inf
+    assert found.min() == pytest.approx(obtained["nominal_other_links"], abs=1e-6)
+    touching = 0.5 * found.min() <= xue.assumed("xue.claim_only_tcp")["link_radius"]
+    assert touching == obtained["links_collide"]
+
+
+def test_whole_links_and_the_window(xue, matrices, layout):
+    """The distance to a box is convex along a link, so that its least is found by thirds."""
+    motion, obtained = xue.table("xue.fig11"), xue.obtained("xue.claim_only_tcp")
+    bars = window(layout, printed_ends(xue))
+    for name, chain in zip(("master", "slave"), chains(matrices, layout), strict=True):
+        ends = np.concatenate([links(chain, q) for q in joints(motion, f"{name}_", "_rad")])
+        nearest = min(to_bar.min() for to_bar in along(bars, ends))
+        assert nearest == pytest.approx(obtained["nominal"][f"{name}_window"], abs=1e-6)
+
+
+def along(bars, ends):
+    """Least distance of every link (N, 2, 3) to each bar in turn, (N,) [m]."""
+    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
+    count = bars.distances(start)[0].shape[1]
+    for bar in range(count):
+        low, high = np.zeros(len(ends)), np.ones(len(ends))
+        for _ in range(60):
+            first, second = low + (high - low) / 3, high - (high - low) / 3
+            one, two = (
+                bars.distances(start + s[:, None] * way)[0][:, bar] for s in (first, second)
+            )
+            low, high = np.where(one > two, first, low), np.where(one > two, high, second)
+        yield bars.distances(start + low[:, None] * way)[0][:, bar]
 
 
 def test_forces_at_a_hundred_postures(xue, matrices):

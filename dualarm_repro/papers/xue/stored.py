@@ -84,13 +84,37 @@ def is_declared(table: pd.DataFrame) -> np.ndarray:
     return inside
 
 
-def _share(rows: pd.DataFrame, method: str, part: str, whole: str) -> Share:
-    return Share.of(rows[f"{method}_{part}"].sum(), rows[f"{method}_{whole}"].sum())
+def mean_share(part: pd.Series, whole: pd.Series) -> Share:
+    """Mean over arrangements of the share ``part / whole`` of their runs, with its interval.
+
+    The ten runs of one arrangement resemble each other, so that the arrangement is the unit: the
+    interval is that of :func:`mean_with_interval`, within [0, 1]. Arrangements (N,) without such
+    runs say nothing; with fewer than two that have some everything is possible.
+    """
+    found = (part / whole)[whole > 0]
+    if len(found) < 2:
+        return Share(float(found.mean()), 0.0, 1.0)
+    mean = mean_with_interval(found.to_numpy())
+    return Share(float(mean["value"]), max(0.0, mean["low"]), min(1.0, mean["high"]))
+
+
+def _shares(rows: pd.DataFrame, method: str, part: str, whole: str) -> Share:
+    return mean_share(rows[f"{method}_{part}"], rows[f"{method}_{whole}"])
 
 
 def held_share(method: str) -> Share:
-    """Share of the runs that stand still which do so in a true minimum."""
-    return _share(lottery_table(), method, "held", "trapped")
+    """Share of an arrangement's runs that stand still which do so in a true minimum, on average."""
+    return _shares(lottery_table(), method, "held", "trapped")
+
+
+def missed_share(method: str) -> Share:
+    """Share of an arrangement's runs that miss the goal, on average over the lottery."""
+    return _shares(lottery_table(), method, "missed", "runs")
+
+
+def _share(rows: pd.DataFrame, method: str, part: str, whole: str) -> Share:
+    """The same over the runs of one arrangement, whose starts were drawn one by one."""
+    return Share.of(rows[f"{method}_{part}"].sum(), rows[f"{method}_{whole}"].sum())
 
 
 def clear_share(radius: float, *pairs: str) -> Share:
@@ -145,10 +169,13 @@ def touching_starts() -> dict[str, int]:
 def ablation_shares() -> Mapping[str, Mapping[str, Share]]:
     """Share of trials that miss, by method, over the random arrangements and in the named ones."""
     table = ABLATION.load()
-    groups = {"random arrangements": table[~table["layout"].isin(NAMED)]}
-    groups |= {name: table[table["layout"] == name] for name in NAMED}
+    drawn = table[~table["layout"].isin(NAMED)]
+    named = {name: table[table["layout"] == name] for name in NAMED}
     return {
-        variant.title: {k: _share(rows, method, "missed", "runs") for k, rows in groups.items()}
+        variant.title: {
+            "random arrangements": _shares(drawn, method, "missed", "runs"),
+            **{name: _share(rows, method, "missed", "runs") for name, rows in named.items()},
+        }
         for method, variant in VARIANTS.items()
     }
 

@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dualarm_repro.errors import InputError
 from dualarm_repro.ledger.assumptions import Chosen
 from dualarm_repro.papers.xue import demands, stored
 from dualarm_repro.papers.xue.document import Layout, assumption
 from dualarm_repro.papers.xue.motions import points_to_window, replay_of, slave_undisturbed
 from dualarm_repro.papers.xue.reading import KEPT, nominal
-from dualarm_repro.papers.xue.studies import lottery, minima
+from dualarm_repro.papers.xue.studies import lottery, minima, planners
 from dualarm_repro.papers.xue.studies.search import (
     SEARCH,
     assumed_settings,
@@ -175,6 +176,15 @@ def test_disturbed_arrangements_stay_on_the_grid(registry):
     assert isinstance(layout, Layout)
     for name in ("master_base_x", "window_opening_width", "base_distance"):
         assert getattr(layout, name) == on_grid(getattr(layout, name))
+
+
+def test_spheres_that_nowhere_spare_the_ends_are_refused(registry, monkeypatch):
+    case, rng = nominal(), np.random.default_rng(0)
+    start = planners.placed_slave_start(case, 0.1, rng)
+    assert len(planners.crowded(case, 2, start, rng).obstacles["spheres"]) == 2
+    monkeypatch.setattr(planners, "_leaves_ends_free", lambda *_: False)
+    with pytest.raises(InputError, match="spheres"):
+        planners.crowded(case, 2, start, rng)
 
 
 def test_minima_vanish_with_the_joint_term_alone_in_charge():

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from dualarm_repro.ledger import Verdict, evaluate
@@ -28,6 +29,37 @@ def test_a_point_that_freed_every_trapped_run_would_lead_out_of_traps(registry, 
     assert found.result.obtained["runs_gained"] == found.result.obtained["runs_trapped"]
     freed_rule = next(rule for rule in found.rules if rule.key == "freed")
     assert str(freed_rule.outcome(found.evidence)) == "holds"
+
+
+def test_both_populations_decide_about_the_virtual_point(registry, monkeypatch):
+    found = evaluate(registry, "xue.claim_virtual_escapes")
+    outcomes = {rule.key: str(rule.outcome(found.evidence)) for rule in found.rules}
+    assert outcomes["freed"] == "fails"
+    shown = claims.lottery_table()
+    left = shown["without_virtual_missed"]
+    monkeypatch.setattr(claims, "lottery_table", lambda: changed(shown, improved_missed=left))
+    found = evaluate(registry, "xue.claim_virtual_escapes")
+    assert found.result.obtained["freed_shown"]["count"] == 0
+    rule = next(rule for rule in found.rules if rule.key == "freed_shown")
+    assert str(rule.outcome(found.evidence)) == "fails"
+
+
+def test_half_of_the_trapped_runs_make_an_arrangement_count_as_freed():
+    table = pd.DataFrame({"without_virtual_trapped": [4, 4, 0], "without_virtual_missed": [4, 4, 1],
+                          "improved_missed": [2, 3, 0]})  # fmt: skip
+    assert claims.freed(table, "improved") == {"count": 1, "of": 2}
+
+
+def test_an_inverse_in_a_step_would_be_counted(monkeypatch):
+    given = beyond.plan_apf
+
+    def solving(placed, start, *rest):
+        placed.arm.ik_branches(placed.arm.fk(start)[np.newaxis])
+        return given(placed, start, *rest)
+
+    assert beyond._inverse_calls() == 0
+    monkeypatch.setattr(beyond, "plan_apf", solving)
+    assert beyond._inverse_calls() == 1
 
 
 def test_a_point_that_spoils_runs_does_not_hold(registry, monkeypatch):

@@ -112,16 +112,21 @@ _register_slave_point("xue.claim_slave_end", "goal", "End")
     "xue.claim_equal_speed",
     rules=[
         Bounded(
-            "difference",
-            "mean speeds of master and slave in the sense assumed, relative difference",
-            high="equal",
+            "beyond_shortened",
+            "relative difference of mean speeds, in the sense assumed, that short steps leave",
+            high=1e-9,
             role=Role.ADOPTS,
         )
     ],
     samples=8,
 )
 def equal_speed(assumed: Assumed) -> Result:
-    """Speeds of the two motions that are run, in the joints and at the tools."""
+    """Speeds of the two motions that are run, in the joints and at the tools.
+
+    Joint steps have one bound v and are shorter before a goal. With a share s of shorter steps the
+    mean lies in [(1 - s) v, v], so that two means may differ by the larger s of themselves; an
+    advance of the end effector that is set has no such steps.
+    """
     sense = assumed["equal_speed_meaning"]
     case = nominal(equal_speed_meaning=sense)
     track = present(master_track(case), "motion of the master")
@@ -132,15 +137,26 @@ def equal_speed(assumed: Assumed) -> Result:
     pairs = {"same_step": joints, "same_tool_speed": tools}
     differences = {name: abs(a - b) / max(a, b) for name, (a, b) in pairs.items()}
     (other,) = differences.keys() - {sense}
+    paths, bound = {"master": track.configurations, "slave": slave.path}, case.planner.max_step
+    shortened = {name: _shortened(path, bound) for name, path in paths.items()}
+    allowed = max(shortened.values()) if sense == "same_step" else 0.0
     return Result(
         obtained={
             "difference": differences[sense],
+            "shortened": shortened,
+            "beyond_shortened": max(differences[sense] - allowed, 0.0),
             "other_difference": differences[other],
             "joints_rad_per_instant": {"master": joints[0], "slave": joints[1]},
             "tool_m_per_instant": {"master": tools[0], "slave": tools[1]},
         },
         caption=caption("claim_equal_speed", sense=sense, other=other),
     )
+
+
+def _shortened(path: np.ndarray, bound: float) -> float:
+    """Share of the steps of a path (N, nq) that are shorter than their bound [rad]."""
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    return float(np.mean(steps < (1.0 - 1e-9) * bound))
 
 
 def stage(title: str, layout: Layout) -> Scene3D:

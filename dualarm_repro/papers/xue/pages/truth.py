@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ....ledger import REGISTRY, Assumed, Bounded, Is, Result, Role
 from ....ledger.captions import captions
@@ -38,7 +39,7 @@ RADII = (0.02, 0.05, 0.08, 0.10, 0.12, 0.15)
     rules=[
         Is(
             "links_collide",
-            "the end effectors stay apart, and other links of the two arms touch",
+            "the end effectors stay apart, and other links of the two arms than both last touch",
             value=False,
         )
     ],
@@ -52,9 +53,9 @@ def only_end_effectors(assumed: Assumed) -> Result:
     cores, apart, collide = None, None, False
     if replay is not None:
         cores, apart = cores_of(replay, case.layout, floor), float(replay.apart().min())
-        touching = 0.5 * smallest_cores(cores)["arms"] <= radius
-        collide = apart > assumed["meeting_distance"] and touching
+        collide = apart > assumed["meeting_distance"] and 0.5 * other_links(cores) <= radius
     ends = lottery_table()
+    involved = others_touch(ends, radius)
     postures = (ends[["cores_start", "cores_goal"]].min(axis=1) <= radius).sum()
     shares = {pair: clear_share(radius, pair)._asdict() for pair in PAIRS}
     return Result(
@@ -62,6 +63,7 @@ def only_end_effectors(assumed: Assumed) -> Result:
             "links_collide": collide,
             "flanges_apart": apart,
             "lottery": shares["arms"],
+            "others_touch_at_least": Share.of(involved.sum(), len(ends))._asdict(),
             "by_pair": {**shares, "all": clear_share(radius)._asdict()},
             "start_or_end_collides": Share.of(postures, len(ends))._asdict(),
             "nearest_link": ends["nearest_link"].mode()[0],
@@ -81,16 +83,16 @@ def only_end_effectors(assumed: Assumed) -> Result:
     rules=[
         Bounded(
             "refuting",
-            "arrangements in which the end effectors stay apart and other links of the arms touch",
+            "arrangements in which the end effectors stay apart and other links surely touch",
             high=0,
         )
     ],
     samples=8,
 )
 def tips_speak_for_links(assumed: Assumed) -> Result:
-    """Counterexamples to the inference among the arrangements in which the figures hold."""
+    """Counterexamples to the inference where the end effectors do what Figs 8 to 11 show."""
     radius, table = assumed["link_radius"], lottery_table()
-    touch = 0.5 * table["cores_arms"] <= radius
+    touch = others_touch(table, radius)
     far = table[touch & is_declared(table)]
     worst = [] if far.empty else [far.loc[far["flanges_apart"].idxmax()]]
     return Result(
@@ -98,9 +100,10 @@ def tips_speak_for_links(assumed: Assumed) -> Result:
             "refuting": int(touch.sum()),
             "of": len(table),
             "share": Share.of(touch.sum(), len(table))._asdict(),
+            "touching": int((0.5 * table["cores_arms"] <= radius).sum()),
             "farthest_tips": None if not worst else float(worst[0]["flanges_apart"]),
         },
-        caption=caption("claim_tip_check_suffices", radius=radius),
+        caption=caption("claim_tip_check_suffices", radius=radius, apart=2.0 * radius + _last()),
         witnesses=[
             choice(
                 int(row.name),
@@ -113,11 +116,41 @@ def tips_speak_for_links(assumed: Assumed) -> Result:
     )
 
 
+def others_touch(table: pd.DataFrame, radius: float) -> np.ndarray:
+    """In which arrangements of the lottery another link than both last ones surely touches (N,).
+
+    Cores touch at 2 r. Were only those of the last links, of lengths l_m and l_s, that near, the
+    end effectors would come within 2 r + l_m + l_s; where they never do, another link is involved.
+    So the count is a lower bound: another link may touch while the end effectors are near as well.
+    """
+    touch = table["cores_arms"] <= 2.0 * radius
+    return (touch & (table["flanges_apart"] > 2.0 * radius + _last())).to_numpy()
+
+
+def _last() -> float:
+    """Length of the last links of both arms together, wrist centre to flange [m]."""
+    return 2.0 * lengths(nominal().layout.dh_source)["d6"]
+
+
+def other_links(cores: LinkCores) -> float:
+    """Smallest core distance of the two arms, that between both last links left aside [m]."""
+    pairs = [tuple(body.partition("/") for body in pair) for pair in cores.found.pairs]
+    last = {owner: max(name for pair in pairs for arm, _, name in pair if arm == owner)
+            for owner in PAIRS["arms"]}  # fmt: skip
+    kept = [
+        {owner for owner, _, _ in pair} == set(PAIRS["arms"])
+        and any(name != last[owner] for owner, _, name in pair)
+        for pair in pairs
+    ]
+    return float(cores.found.distance[:, kept].min())
+
+
 def arms_witnesses(radius: float) -> list[dict[str, Any]]:
-    """Two declared arrangements in which the end effectors stay apart: arms clear, and not."""
+    """Two declared arrangements in which the end effectors stay apart: all links clear, and other
+    links than both last ones in contact."""
     table = lottery_table()
     table = table[is_declared(table)]
-    clear = 0.5 * table["cores_arms"] > radius
+    clear, touch = 0.5 * table["cores_arms"] > radius, others_touch(table, radius)
     return [
         choice(
             int(rows.index[0]),
@@ -125,7 +158,7 @@ def arms_witnesses(radius: float) -> list[dict[str, Any]]:
             flanges_apart=float(rows["flanges_apart"].iloc[0]),
             links_touch_at_radius=float(0.5 * rows["cores_arms"].iloc[0]),
         )
-        for rows, verdict in ((table[clear], "holds"), (table[~clear], "fails"))
+        for rows, verdict in ((table[clear], "holds"), (table[touch], "fails"))
         if len(rows)
     ]
 
@@ -194,6 +227,7 @@ def _nominal_numbers(nominal: LinkCores | None, radius: float) -> dict[str, Any]
     smallest = smallest_cores(nominal)
     return {
         "nominal": smallest,
+        "nominal_other_links": other_links(nominal),
         "nominal_largest_radius": largest_radius(smallest),
         "nominal_arms_clear": 0.5 * smallest["arms"] > radius,
         "nominal_floor": {

@@ -88,16 +88,28 @@ def placed_slave_start(case: Case, half_width: float, rng: np.random.Generator) 
 
 
 def crowded(case: Case, count: int, start: np.ndarray, rng: np.random.Generator) -> Scene:
-    """Both arms, window and further spheres near their tracks; all ends of the motions are free."""
+    """Both arms, window and further spheres near their tracks; all ends of the motions are free.
+
+    Raises
+    ------
+    InputError
+        Nearly every sphere near a track is in the way of an end.
+    """
     layout, planner = case.layout, case.planner
     plans = (motions.master_plan(layout, planner), motions.slave_plan(case))
     tracks = np.vstack([motions.present(plan, "plan of an arm").tcp for plan in plans])
     spheres: list[Sphere] = []
-    while len(spheres) < count:
+    for _ in range(_DRAWS):
+        if len(spheres) == count:
+            break
         centre = tracks[rng.integers(len(tracks))] + rng.uniform(-NEAR, NEAR, 3)
         sphere = Sphere(centre, RADIUS)
         if _leaves_ends_free(layout, sphere, start):
             spheres.append(sphere)
+    if len(spheres) < count:
+        raise InputError(
+            "arrangement", "spheres", len(spheres), f"{count} that leave the ends free"
+        )
     extra = {"spheres": tuple(spheres)} if spheres else {}
     obstacles = {"window": layout.window(), **extra}
     return Scene(_arms(layout), obstacles, self_collision=False)

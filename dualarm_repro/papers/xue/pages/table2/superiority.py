@@ -34,7 +34,7 @@ _MEASURES = {
 
 @checks(
     "xue.claim_better",
-    rules=[Exceeds(name, f"{name}: {words}") for name, words in _MEASURES.items()],
+    rules=[Exceeds(name, f"{name}: {words}", threshold=name) for name, words in _MEASURES.items()],
 )
 def superior(assumed: Assumed) -> Result:
     """Mean paired differences of the two methods over random arrangements."""
@@ -54,7 +54,9 @@ def superior(assumed: Assumed) -> Result:
             "never_missed": {name: value._asdict() for name, value in never.items()},
         },
         table=differences.reset_index(names="arrangement"),
-        caption=caption("claim_better", trials=TRIALS, path=path, measures=_MEASURES, found=found),
+        caption=caption(
+            "claim_better", trials=TRIALS, path=path, measures=_MEASURES, found=found, least=least()
+        ),
         alt="Bars with intervals: share of arrangements without a missed run, for both methods.",
         figure=lambda: shares_figure(
             {name: {"no run missed": value} for name, value in never.items()},
@@ -62,6 +64,12 @@ def superior(assumed: Assumed) -> Result:
         ),
         witnesses=_witnesses(differences, found),
     )
+
+
+def least() -> dict[str, float]:
+    """What an advantage has to exceed, by respect."""
+    declared = REGISTRY.look("xue.claim_better").thresholds
+    return {name: float(declared[name].value) for name in _MEASURES}
 
 
 def paired_differences(reading: str, path: str) -> pd.DataFrame:
@@ -88,12 +96,13 @@ def paired_differences(reading: str, path: str) -> pd.DataFrame:
 
 def _witnesses(differences: pd.DataFrame, found: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """Where nothing fails and something is open: a declared arrangement for each side of it."""
-    if any(one["high"] < 0.0 for one in found.values()):
+    edges = least()
+    if any(one["high"] < edges[name] for name, one in found.items()):
         return []
     declared = is_declared(lottery_table().loc[differences.index])
     witnesses = []
     for name, one in found.items():
-        if one["low"] <= 0.0:
+        if one["low"] <= edges[name]:
             column = differences[name].where(declared)
             for k, verdict in ((column.idxmax(), "holds"), (column.idxmin(), "fails")):
                 witnesses.append(choice(int(k), verdict, **{name: float(column[k])}))

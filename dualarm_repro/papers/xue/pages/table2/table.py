@@ -81,6 +81,7 @@ def assumed_trials(assumed: Assumed) -> Trials | None:
         Exceeds(
             "text_less_table",
             "share of random arrangements with the text's outcome less that with the table's",
+            threshold="apart",
         ),
         Is(
             "rows_agree_with_text",
@@ -112,7 +113,13 @@ def both_methods(assumed: Assumed) -> Result:
             },
         },
         table=_matrix_table(trials),
-        caption=caption("tab02", trials=trials, runs=TRIALS, spread=_spread(matrix)),
+        caption=caption(
+            "tab02",
+            trials=trials,
+            runs=TRIALS,
+            spread=_spread(matrix),
+            least_apart=float(REGISTRY.look("xue.tab02").thresholds["apart"].value),
+        ),
         alt="Table of shares with intervals: trials that miss the goal, per reading of the method "
         "and criterion, over rule of the step and variation of the starts; printed counts beside.",
         figure=lambda: share_matrix_figure(*_matrix(matrix), _printed_beside()),
