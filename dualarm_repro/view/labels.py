@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 from mpl_toolkits.mplot3d import proj3d
 
 from .style import BLACK, ink
@@ -124,7 +125,7 @@ def _fence(text: Any) -> np.ndarray:
 
 
 def _extent(text: Any) -> tuple[float, float]:
-    box = text.get_window_extent()
+    box = Text.get_window_extent(text)  # without the line to what is named
     return box.width, box.height
 
 

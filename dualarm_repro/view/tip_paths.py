@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import cycle
 from typing import Any, Unpack
 
 import matplotlib.pyplot as plt
@@ -11,7 +12,7 @@ import numpy as np
 
 from ..scene import PlacedArm, Sphere
 from .arm_drawings import skeleton
-from .labels import name_points
+from .labels import name_point, push_apart
 from .style import (
     BLACK,
     ORANGE,
@@ -25,6 +26,9 @@ from .style import (
 
 #: Colours of paths; that of the spheres is left out.
 _COLORS = (PALETTE[0], PALETTE[3], PALETTE[2], PALETTE[4])
+#: Where names stand from marked points, in points of a letter, and the line between.
+_AWAY = ((0, -20), (-22, 30), (44, 20), (-31, -14))
+_LINE = {"arrowstyle": "-", "color": "0.4", "lw": 0.7, "shrinkA": 0, "shrinkB": 3}
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +47,7 @@ def tip_path_figure(
     """Panels side by side, each with the spheres and the floor's height as lower end of z.
 
     A ring marks where each path begins and a square where it ends; postures of an arm become
-    darker in their order.
+    darker in their order, and those of several arms at common times carry the number of the time.
     """
     with house_style():
         wide = WIDTH if len(panels) > 1 else 0.75 * WIDTH
@@ -64,27 +68,50 @@ def tip_path_figure(
             ax.set_title(panel.title)
             same_scale(ax, zoom=1.05)
         if handles:
-            handles["begins"] = _sign("o", mfc="white", mew=1.6)
-            handles["ends"] = _sign("s")
+            handles["path begins"] = _sign("o", mfc="white", mew=1.6)
+            handles["path ends"] = _sign("s")
+        if any(map(_numbered, panels)):
+            handles["times in order"] = _sign("$1$", mew=0.4, ms=7)
         if spheres:
             handles["obstacles"] = _sign("o", color=ORANGE, alpha=0.5, ms=10)
         if len(handles) > 1:
             figure.legend(handles.values(), handles, loc="outside upper left", ncols=len(handles))
         for ax, panel in zip(np.atleast_1d(axes), panels, strict=True):
-            name_points(ax, _named(panel.marks), offset=(0, 11))
+            _name(ax, panel)
     return figure
 
 
-def _named(marks: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The first of several points of one name stands for all."""
-    return {name: np.atleast_2d(point)[0] for name, point in marks.items()}
+def _name(ax: Any, panel: TipPanel) -> None:
+    """Names of marked points, the first of several of one name for all, and numbers of times."""
+    texts = [
+        name_point(ax, np.atleast_2d(point)[0], name, away, arrowprops=_LINE)
+        for away, (name, point) in zip(cycle(_AWAY), panel.marks.items(), strict=False)
+    ]
+    for color, own in _by_arm(panel) if _numbered(panel) else ():
+        for k, (placed, q) in enumerate(own, 1):
+            flange = skeleton(placed.arm, q, placed.placement)[-1]
+            texts.append(name_point(ax, flange, str(k), (0, 11), color=color))
+    push_apart(ax.figure, texts)
+
+
+def _numbered(panel: TipPanel) -> bool:
+    """Whether postures of several arms share their times."""
+    return len({placed.name for placed, _ in panel.postures}) > 1
+
+
+def _by_arm(panel: TipPanel) -> list[tuple[str, list[tuple[PlacedArm, np.ndarray]]]]:
+    """Postures of each arm with its colour: grey for one arm, else in the colours of the paths."""
+    names = list(dict.fromkeys(placed.name for placed, _ in panel.postures))
+    colors = _COLORS if len(names) > 1 else ("0.25",)
+    return [
+        (color, [(placed, q) for placed, q in panel.postures if placed.name == name])
+        for name, color in zip(names, colors, strict=False)
+    ]
 
 
 def _postures(ax: Any, panel: TipPanel) -> None:
-    """Stick figures: grey for one arm, else in the colours of the paths, darker in their order."""
-    names = list(dict.fromkeys(placed.name for placed, _ in panel.postures))
-    for name, color in zip(names, _COLORS if len(names) > 1 else ("0.25",), strict=False):
-        own = [(placed, q) for placed, q in panel.postures if placed.name == name]
+    """Stick figures, darker in their order."""
+    for color, own in _by_arm(panel):
         for k, (placed, q) in enumerate(own):
             shade = 0.25 + 0.6 * k / max(len(own) - 1, 1)
             points = skeleton(placed.arm, q, placed.placement)

@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...ledger import Bounded, Is, NoOriginal, Result, Rounds
+from ...ledger import REGISTRY, Bounded, Is, NoOriginal, Result, Rounds
 from ...ledger.captions import Caption
 from ...ledger.rules import Rule
 from ...planning.search.search_plan import SearchPlan
 from ...view.search_curves import coordinate_figure, joint_figure
-from .document import FACE_VALUE, PRINTED
+from .document import FACE_VALUE, PRINTED, full_step
 
-#: How near a printed point counts as met [m].
-_NEAR, _WHY = 0.016, "half the way of the flange of the straight arm in one printed step"
 #: The halves of a search, as print names them.
 HALVES = ("forward", "backward")
 NO_CURVES = NoOriginal("curves", "the curves")
@@ -45,7 +43,11 @@ def count_rules(joined: str) -> list[Rule]:
 def meeting_rules(joined: str) -> list[Rule]:
     """Rules for the printed ends of the halves."""
     ends = [
-        Rounds(half, f"end of the {half} half [m]", to=half, tolerance=_NEAR, reason=_WHY)
+        Bounded(
+            f"steps_from_print.{half}",
+            f"end of the {half} half from the printed one, in steps of the straight arm's flange",
+            high="near",
+        )
         for half in HALVES
     ]
     return [*ends, Is("joined", joined, value=True)]
@@ -79,7 +81,13 @@ def tally(fit: pd.DataFrame) -> dict[str, Any]:
     return sums | {"nearest": float(fit["nearest"].min()), "calibrated": float(fit["error"].min())}
 
 
-def fit_witness(fit: pd.DataFrame, within: float = _NEAR) -> list[dict[str, Any]]:
+def near_print(item_id: str) -> float:
+    """How near a printed end counts as met [m], by the threshold of an item in steps."""
+    limits = REGISTRY.look(item_id, "thresholds").thresholds
+    return limits["near"].value * full_step()
+
+
+def fit_witness(fit: pd.DataFrame, within: float) -> list[dict[str, Any]]:
     """The reading that the fit prefers, which has the printed number of searches, as a witness for
     ends of the halves ``within`` a distance of the printed ones [m]."""
     index = fit["error"].idxmin()
@@ -104,6 +112,7 @@ def met(face: dict[str, Any], other: dict[str, Any], printed: np.ndarray) -> dic
     """What the rules for the ends look at, from the outcomes of both readings."""
     return {
         **by_half(face["ends"]),
+        "steps_from_print": by_half(gap / full_step() for gap in face["distance_to_print"]),
         "joined": face["reason"] == "reached",
         "gap_tip": face["gap_tip"],
         "printed_gap_tip": float(np.linalg.norm(np.subtract(*printed))),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result, Rounds
+from ....ledger import REGISTRY, Assumed, Bounded, Generally, Is, NoOriginal, Result
 from ....ledger.captions import captions
 from ....ledger.printed_values import printed_numbers
 from ....ledger.witnesses import cell_witnesses
@@ -68,31 +68,26 @@ def _chatter(plan: SearchPlan, measure: str) -> float:
             "posture at any ratio of the gains [deg]",
             high="balanced",
         ),
-        Rounds(
-            "searches",
-            "searches until it rests",
-            to="searches",
-            tolerance=5,
-            reason="printed as approximate: half of a decade",
-        ),
-        Rounds(
-            "tcp",
-            "flange where it rests [m]",
-            to="tcp",
-            tolerance=0.033,
-            reason="printed as a neighbourhood: the way of the flange of the straight arm in one "
-            "printed step",
+        Bounded("searches_off", "searches until it rests, from the printed number", high="about"),
+        Bounded(
+            "steps_from_print",
+            "flange where it rests from the printed trap, in steps of the straight arm's flange",
+            high="neighbourhood",
         ),
     ],
 )
 def trapped(assumed: Assumed) -> Result:
     """Where and why the one-way search ends, at face value and by the calibrated reading."""
     face, other = map(_outcome, _both(assumed))
+    printed = float(printed_numbers("qiu.claim_trad_stuck", "searches"))
+    away = float(np.linalg.norm(np.subtract(face["tcp"], PRINTED.trap)))
     return Result(
         obtained={
             "trapped": face["reason"] == "trapped",
             "searches": face["searches_until_rest"],
+            "searches_off": abs(face["searches_until_rest"] - printed),
             "tcp": face["tcp"],
+            "steps_from_print": away / full_step(),
             "face_value": face,
             "calibrated": other,
             "balance": _nearest_balance(),

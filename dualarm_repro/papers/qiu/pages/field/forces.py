@@ -257,21 +257,30 @@ def _repelled() -> Iterator[tuple[np.ndarray, int, float, np.ndarray]]:
     ],
 )
 def inverse_proportion(assumed: Assumed) -> Result:
-    """Slope of the force of (8) on logarithmic axes over its range; minus one is 1 / rho."""
-    eta0, influence = PRINTED.eta0, PRINTED.influence
+    """Slope of the assumed force on logarithmic axes over its range; minus one is 1 / rho."""
+    influence, form = PRINTED.influence, assumed["repulsion_form"]
     rho = np.geomspace(0.02, 0.98, 97) * influence
-    force = np.array([inverse_distance_force(r, eta0, influence, _CONTACT) for r in rho])
+    force = np.array([repulsion(form, r) for r in rho])
     slope = np.gradient(np.log(force), np.log(rho))
     return Result(
         obtained={
+            "form": form,
             "departure": float(np.abs(slope + 1.0).max()),
             "slope": {"near": float(slope[1]), "far": float(slope[-2])},
             "falls": bool((np.diff(force) < 0.0).all()),
-            "jump_of_inverse": eta0 / influence,
+            "jump": repulsion(form, influence),
         },
         table=pd.DataFrame({"rho_m": rho, "force": force, "slope": slope}),
         caption=caption("claim_inverse", pull=PRINTED.threshold * PRINTED.zeta),
     )
+
+
+def repulsion(form: str, rho: float) -> float:
+    """Size of the repulsive force of the printed gain at a distance rho [m], in one of the forms
+    that the text allows: the slope of the textbook potential, or eta_0 / rho to the letter."""
+    if form == "inverse":
+        return PRINTED.eta0 / rho
+    return float(inverse_distance_force(rho, PRINTED.eta0, PRINTED.influence, _CONTACT))
 
 
 @checks(

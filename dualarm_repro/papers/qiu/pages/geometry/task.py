@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pinocchio as pin
 
 from .....errors import InputError
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Rounds
+from .....ledger.assumptions import alternatives, hashable
 from .....ledger.captions import captions
 from .....ledger.printed import read_number
 from .....ledger.printed_values import printed_numbers
@@ -108,16 +110,49 @@ def _start_tips() -> dict[str, np.ndarray]:
 
 @checks(
     "qiu.claim_same_posture",
-    rules=[Residual("difference", "start tips seen from their bases, difference [m]", high=1e-12)],
+    rules=[
+        Residual("tips", "start tips seen from their bases, difference [m]", high=1e-12),
+        Residual(
+            "postures",
+            "joints of both arms at their start tips, difference by branch and wrist [rad]",
+            high=1e-9,
+        ),
+        Bounded("reached", "branches and wrists that take both arms to their tips", low=1.0),
+    ],
 )
 def same_posture(assumed: Assumed) -> Result:
-    """The printed start tips, each seen from its own base."""
+    """The printed start tips, each seen from its own base, and the postures that reach them."""
     seen = {name: tip - PRINTED.bases[name] for name, tip in _start_tips().items()}
-    difference = float(np.abs(seen["master"] - seen["slave"]).max())
+    postures = start_postures()
+    both = [(q, postures["slave"][case]) for case, q in postures["master"].items()]
+    apart = [_turned(*pair) for pair in both if any(q is not None for q in pair)]
     return Result(
-        obtained={"difference": difference, "seen": {n: at.tolist() for n, at in seen.items()}},
+        obtained={
+            "tips": float(np.abs(seen["master"] - seen["slave"]).max()),
+            "postures": max(apart, default=np.inf),
+            "reached": len(apart),
+            "tried": len(both),
+            "seen": {n: at.tolist() for n, at in seen.items()},
+        },
         caption=caption("claim_same_posture"),
     )
+
+
+def start_postures() -> dict[str, dict[tuple[str, tuple[float, ...]], np.ndarray | None]]:
+    """Postures (6,) [rad] that take each arm on its base to its printed start tip, by branch and
+    declared wrist; None beyond reach."""
+    cases = list(product(BRANCHES, map(hashable, alternatives("qiu.goal_wrist", 0))))
+    return {
+        name: {(b, wrist): branch_posture(placed(name), tip, b, wrist) for b, wrist in cases}
+        for name, tip in _start_tips().items()
+    }
+
+
+def _turned(one: np.ndarray | None, other: np.ndarray | None) -> float:
+    """Largest difference of a joint [rad], by the shorter way; unbounded if one is missing."""
+    if one is None or other is None:
+        return np.inf
+    return float(np.abs((one - other + np.pi) % (2.0 * np.pi) - np.pi).max())
 
 
 @checks(

@@ -23,7 +23,7 @@ from .....view.hull_drawing import hull_figure
 from ...document import SEED, arm_in_use, placed
 from ...ends import TIP_COLUMNS
 from ...reading import ANGLE_UNITS, JUDGED_BY, Hull, Links
-from ...studies.dual_pairs import PAIR_POINTS, PAIR_RATIOS, PAIRS
+from ...studies.dual_pairs import DRAWN, PAIR_POINTS, PAIR_RATIOS, PAIRS
 from ...studies.models import MODEL_TASKS, MODELS
 
 checks = partial(REGISTRY.checks, page="qiu/master_slave")
@@ -82,11 +82,14 @@ def hull_of_the_posture(assumed: Assumed) -> Result:
 @checks(
     "qiu.claim_hull_valid",
     rules=[
-        Generally(
-            "effective",
-            "random pairs of goals that are planned around the moving hull",
-            at_least="most",
-            margin="margin",
+        *(
+            Generally(
+                f"effective.{drawn}",
+                f"pairs of goals, {drawn} ones, that are planned around the moving hull",
+                at_least="most",
+                margin="margin",
+            )
+            for drawn in DRAWN
         ),
         Generally(
             "cured",
@@ -114,8 +117,10 @@ def hull_claim(assumed: Assumed) -> Result:
     planned, solved = cells["planned"].astype(bool), _solved("improved", judged)
     apart = solved["hull"] != solved["capsules"]
     obtained = {
-        "effective": {"count": int(planned.sum()), "of": len(cells)},
-        "effective_by_goals": planned.groupby(cells["drawn"]).mean().to_dict(),
+        "effective": {
+            drawn: {"count": int(found.sum()), "of": len(found)}
+            for drawn, found in planned.groupby(cells["drawn"])
+        },
         "cured": {"count": int(solved["hull"][apart].sum()), "of": int(apart.sum())},
         "operations_ratio": hull_cost / capsule_cost,
         "solved": {model: int(found.sum()) for model, found in solved.items()},

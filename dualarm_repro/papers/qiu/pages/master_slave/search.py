@@ -13,6 +13,7 @@ from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
 from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
 from .....ledger.printed_values import printed_numbers
+from .....planning.checks.contact_check import ARMS, OBSTACLES
 from .....planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from .....planning.search.splice import smoothed
 from .....planning.search.time_map import hull_tracks, replay, shares, time_map
@@ -98,7 +99,7 @@ def meeting(assumed: Assumed) -> Result:
     return Result(
         obtained=ends.met(*_outcomes(assumed), PRINTED.slave_meeting),
         caption=caption("claim_slave_meet"),
-        witnesses=ends.fit_witness(FIT_SLAVE.load()),
+        witnesses=ends.fit_witness(FIT_SLAVE.load(), ends.near_print("qiu.claim_slave_meet")),
     )
 
 
@@ -138,7 +139,13 @@ def schedule(assumed: Assumed) -> Result:
     rules=[
         Is("joined", "both arms have a path", value=True),
         Bounded("arms", "smallest distance of the links of both arms [m]", low=0.0),
-        Bounded("obstacles", "smallest distance of links and spheres [m]", low=0.0),
+        Bounded(
+            "others",
+            "smallest distance of a link to a sphere, the table if there is one, or a link of its "
+            "own arm [m]",
+            low=0.0,
+        ),
+        Bounded("over_limits", "excess over the joint limits, if they are kept [rad]", high=0.0),
     ],
 )
 def no_collision(assumed: Assumed) -> Result:
@@ -146,15 +153,18 @@ def no_collision(assumed: Assumed) -> Result:
     reading = Slave.of(assumed)
     plan, scene = reading.dual_plan(), reading.scene(Links.of(assumed).radii)
     found = plan.contact(scene)
-    shifted = {str(k): plan.contact(scene, shift=k).clearance["arms"] for k in _SHIFTS}
+    others = [gap for group, gap in found.clearance.items() if group != ARMS]
+    shifted = {str(k): plan.contact(scene, shift=k).clearance[ARMS] for k in _SHIFTS}
     return Result(
         obtained={
             "joined": plan.reached,
-            "arms": found.clearance["arms"],
-            "obstacles": found.clearance["obstacles"],
+            "arms": found.clearance[ARMS],
+            "others": min(others),
+            "over_limits": found.beyond_limits if reading.limits == "kept" else 0.0,
+            "obstacles": found.clearance[OBSTACLES],
             "clearance": {**found.clearance, "beyond_limits": found.beyond_limits},
             "out_of_step": shifted,
-            "uniform_speed": plan.contact(scene, "uniform").clearance["arms"],
+            "uniform_speed": plan.contact(scene, "uniform").clearance[ARMS],
             "control_points": plan.slave.control_clearance,
         },
         caption=caption("claim_no_collision", most=_SHIFTS[-1]),

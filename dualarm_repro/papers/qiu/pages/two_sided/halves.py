@@ -67,7 +67,7 @@ def meeting(assumed: Assumed) -> Result:
     return Result(
         obtained=ends.met(face, other, PRINTED.meeting),
         caption=caption("claim_bi_meet", reason=face["reason"], height=height),
-        witnesses=ends.fit_witness(FIT.load()),
+        witnesses=ends.fit_witness(FIT.load(), ends.near_print("qiu.claim_bi_meet")),
     )
 
 
