@@ -37,8 +37,11 @@ class Cell:
         The points whose velocities the ellipsoids describe [m].
     seam : ndarray (N, 3)
         Seam points in the frame of the workpiece [m].
+    pipe_axes : ndarray (2, 2, 3)
+        Ends of the axes of main pipe and branch in the frame of the workpiece [m].
     pipe_cores : ndarray (K, 2, 3)
-        Cores of the workpiece's capsules in its frame [m].
+        Cores of the capsules that contain the pipes, in the same frame [m]; those of both pipes
+        come first.
     pipe_radii : ndarray (K,)
         [m]
     floor : float or None
@@ -62,6 +65,7 @@ class Cell:
     flanges: np.ndarray
     references: np.ndarray
     seam: np.ndarray
+    pipe_axes: np.ndarray
     pipe_cores: np.ndarray
     pipe_radii: np.ndarray
     floor: float | None
@@ -79,6 +83,7 @@ class Cell:
             "flanges": (3, count, 4, 4),
             "references": (3, count, 3),
             "seam": (count, 3),
+            "pipe_axes": (2, 2, 3),
             "pipe_cores": (len(self.pipe_radii), 2, 3),
         }
         for name, shape in shapes.items():

@@ -102,6 +102,7 @@ class Job(FlatSeam):
     link_radius_scale: float
     torch_exemption: float
     floor: str
+    carrier_reference: str
 
     @memo(_CELLS)
     def cell(self) -> Cell:
@@ -117,6 +118,7 @@ class Job(FlatSeam):
             Tools(self.grasp, self.gripper_length, scale * GRIPPER_RADIUS, torch, self.torch_axis),
             floor=_FLOORS[self.floor],
             threshold=self.singularity_threshold,
+            reference=self.carrier_reference,
         )
 
     def placement(self, objective: Objective | None = None) -> Placement:
