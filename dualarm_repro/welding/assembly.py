@@ -172,6 +172,7 @@ def assemble(
         rotations=rotations,
         flanges=np.stack(flanges),
         references=np.stack([*points, tips]),
+        torch_axis=np.array(axes),
         seam=seam.points,
         pipe_axes=workpiece.axes,
         pipe_cores=workpiece.cores,

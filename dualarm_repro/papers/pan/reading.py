@@ -52,6 +52,8 @@ DENSER = 10
 #: Seam point at which the cell is drawn.
 SHOWN = {"first_seam_point": 0}
 _NO_SOLUTION = "No position of the region is feasible, so the problem has no solution."
+#: Generations over which each stall rule averages.
+_STALLS = {"mean_over_10": 10, "best_over_50": 50}
 _FLOORS = {"present": 0.0, "absent": None}
 #: Answers kept: small ones of every draw, large ones of the last few.
 _SMALL, _LARGE, _CELLS = 4096, 16, 64
@@ -164,6 +166,7 @@ class Genetic(FromAssumptions):
     ga_elite: float
     ga_mutation: str
     ga_stall: float
+    ga_stall_rule: str
     infeasible_fitness: str
 
     def settings(self) -> GeneticSettings:
@@ -175,6 +178,8 @@ class Genetic(FromAssumptions):
             elite=self.ga_elite,
             mutation=self.ga_mutation,
             stall=self.ga_stall,
+            stall_of=self.ga_stall_rule.split("_")[0],
+            stall_generations=_STALLS[self.ga_stall_rule],
             infeasible=self.infeasible_fitness,
         )
 

@@ -16,11 +16,13 @@ from ..document import SEED
 from ..reading import PROBLEM, Genetic, Problem
 
 RUNS = 10
-#: Variants of the genetic algorithm: the declared one, another mutation, a coarse stall rule.
+#: Variants of the genetic algorithm: the declared one; noise that shrinks on a schedule; a coarse
+#: stall rule; the stall rule of the named program, which watches the best fitness.
 VARIANTS: dict[str, dict[str, Any]] = {
     "declared": {},
-    "adaptive mutation": {"mutation": "adaptive_feasible"},
+    "scheduled mutation": {"mutation": "gaussian"},
     "coarse stall": {"stall": 1e-3},
+    "stall of the best": {"stall_of": "best", "stall_generations": 50},
 }
 
 
