@@ -253,7 +253,7 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
 @checks(
     "pan.claim_volume",
     rules=[
-        Residual("spread", "ratio of volume and printed (11), relative range of", high=1e-9),
+        Residual("spread", "ratio of volume and printed (11), relative range of", high=1e-6),
     ],
 )
 def volume_and_measure(assumed: Assumed) -> Result:
