@@ -56,6 +56,8 @@ def test_shoulder_and_radii_can_be_changed():
     low, high = stand_in("er16", 0.4), stand_in("er16", 0.5, 2.0)
     lift = high.fk(np.zeros(6)) - low.fk(np.zeros(6))
     assert np.allclose(lift[:3, 3], [0, 0, 0.1])
+    documented = {stand_in("kr16-2", height).fk(np.zeros(6))[2, 3] for height in (0.4, 0.5)}
+    assert len(documented) == 1  # keeps its own
     column = high.geometry.geometryObjects[0]
     assert column.geometry.halfLength == pytest.approx(0.25)
     assert column.geometry.radius == pytest.approx(0.32)
