@@ -39,7 +39,7 @@ class Seam:
 
 
 class Arm:
-    """Six joints in the modified convention; table rows alpha, a, d, offset, lower, upper [rad, m]."""
+    """Six joints, modified convention; rows alpha, a, d, offset, lower, upper [rad, m]."""
 
     def __init__(self, table, capsules):
         self.alpha, self.a, self.d, self.offset, self.lower, self.upper = table
