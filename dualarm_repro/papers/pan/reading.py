@@ -167,7 +167,13 @@ class Genetic(FromAssumptions):
     ga_mutation: str
     ga_stall: float
     ga_stall_rule: str
+    ga_box: tuple[tuple[float, float], ...]
     infeasible_fitness: str
+
+    @property
+    def box(self) -> np.ndarray:
+        """Bounds of the individuals (3, 2) [m]."""
+        return np.array(self.ga_box)
 
     def settings(self) -> GeneticSettings:
         """The same in the words of the method."""
@@ -283,14 +289,14 @@ def at_optimum(assumed: Mapping[str, Any]) -> tuple[Cell, Jobs, np.ndarray, Meas
 def one_run(problem: Problem, settings: Genetic) -> Evolution:
     """One seeded run of the search, as the document describes one."""
     rng = np.random.default_rng(SEED)
-    return evolve(problem.placement(), problem.box, settings.settings(), rng, must_find=False)
+    return evolve(problem.placement(), settings.box, settings.settings(), rng, must_find=False)
 
 
 @memo(_LARGE)
 def traced(problem: Problem, settings: Genetic) -> Trace:
     """One seeded run of the search, watched."""
     rng = np.random.default_rng(SEED)
-    return watch(problem.placement(), problem.box, settings.settings(), rng)
+    return watch(problem.placement(), settings.box, settings.settings(), rng)
 
 
 def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scene3D:

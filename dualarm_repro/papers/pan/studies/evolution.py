@@ -32,11 +32,14 @@ def cells() -> list[dict[str, Any]]:
 
 
 def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    """One genetic run; its history is held at the last generation after it has ended."""
+    """One genetic run; its history is held at the last generation after it has ended.
+
+    Its fitness is 0 if no individual was feasible.
+    """
     values = REGISTRY.nominal("pan")
-    problem = Problem.of(values)
-    chosen = replace(Genetic.of(values).settings(), **VARIANTS[settings["variant"]])
-    found = evolve(problem.placement(), problem.box, chosen, rng)
+    problem, declared = Problem.of(values), Genetic.of(values)
+    chosen = replace(declared.settings(), **VARIANTS[settings["variant"]])
+    found = evolve(problem.placement(), declared.box, chosen, rng, must_find=False)
     held = [*found.history, *[found.history[-1]] * (chosen.generations + 1 - len(found.history))]
     history = {
         f"{name}_{k}": float(getattr(generation, name))
@@ -59,7 +62,7 @@ EVOLUTION = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen("pan", (*PROBLEM, *Genetic.names(), "search_box"), ranges=True),
+    settings=Chosen("pan", (*PROBLEM, *Genetic.names()), ranges=True),
 )
 REGISTRY.keeps(EVOLUTION)
 

@@ -46,7 +46,8 @@ def best_individual(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "recomputed": float(abs(again - runs.fitness).max()),
-            "gap": float(1 - runs.fitness.min() / optimum(problem).fitness),
+            "lost": int((runs.fitness == 0).sum()),
+            "gap": float(1 - runs.fitness[runs.fitness > 0].min() / optimum(problem).fitness),
             "best": runs.best[0].tolist(),
             "distance_to_printed": float(distance.min()),
         },
@@ -100,7 +101,7 @@ def distance_curve(assumed: Assumed) -> Result:
     """Mean distance between individuals over the generations."""
     runs = stored_runs(round(assumed["ga_seeds"]))
     distance = runs.histories["distance"]
-    diagonal = np.linalg.norm(np.diff(Problem.of(REGISTRY.nominal("pan")).box, axis=1))
+    diagonal = np.linalg.norm(np.diff(Genetic.of(REGISTRY.nominal("pan")).box, axis=1))
     return Result(
         obtained={
             "outside": float(np.maximum(distance - diagonal, 0.0).max()),
