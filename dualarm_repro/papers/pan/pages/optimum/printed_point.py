@@ -51,7 +51,7 @@ def printed_point(assumed: Assumed) -> Result:
     nearest = [(label, share.idxmax(), share.max()) for label, share in shares.items()]
     cell = problem.job.cell().unlimited()
     unlimited = Placement(cell, problem.measure.reading()).jobs([printed])
-    witnesses = fitted()
+    witnesses, climbs = fitted(), searched()
     return Result(
         obtained={
             "C": best.position.tolist() if best.fitness else None,
@@ -59,7 +59,7 @@ def printed_point(assumed: Assumed) -> Result:
             "loss": loss_at_print(problem),
             "fitness": best.fitness,
             "printed_point_is": status_name(solved(problem.job, tuple(printed))),
-            "readings_searched": len(searched()),
+            "readings_searched": len(climbs),
             "readings_with_witness": len(witnesses),
         },
         table=table.reset_index(),
@@ -67,7 +67,8 @@ def printed_point(assumed: Assumed) -> Result:
         caption=caption(
             "claim_optimum",
             **{"near": _NEAR, "far": _FAR, "most": near.to_numpy().max(), "nearest": nearest},
-            **{"witnesses": witnesses, "searched": searched()},
+            **{"witnesses": witnesses, "climbs": climbs, "met": climbs[climbs["met"]]},
+            missed=climbs.loc[~climbs["met"], "distance"],
             sets=len(CONSISTENCY.load()) // len(READINGS),
         ),
         alt="Left: optima of all readings in two projections with the printed point and circles "
