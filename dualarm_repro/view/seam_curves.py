@@ -70,8 +70,8 @@ def rates_figure(used: np.ndarray, fastest: float) -> Any:
         for name, color, values in zip(ROBOTS, ROBOT_COLORS, share, strict=True):
             ax.plot(values, color=color, label=name)
         ax.axhline(1.0, color=BLACK, lw=0.9, ls="--", label="limit")
-        told = f"joint speed over its limit\nat {1e3 * fastest:.0f} mm/s"
-        ax.set(xlabel="seam point", ylabel=told, ylim=(0, 1.08))
+        pace = f"share of the speed limit\nat {1e3 * fastest:.0f} mm/s along the seam"
+        ax.set(xlabel="seam point", ylabel=pace, ylim=(0, 1.08))
         ax.margins(x=0)
         name_ends(ax)
     return figure
