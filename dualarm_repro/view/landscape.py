@@ -9,8 +9,13 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
 
-from .style import BLACK, BLUE, GREEN, ORANGE, RED, WIDTH, house_style
+from ..welding import Placement, Status
+from ..welding.grid_search import grid_points
+from ..welding.placement import blocks
+from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, WIDTH, house_style
 
 _STEPS = 49
 
@@ -47,6 +52,43 @@ def slices_figure(
         axes[0].plot([], [], color=RED, label="99 % of the best")
         figure.colorbar(mesh, ax=axes, label="fitness", location="bottom", shrink=0.6, aspect=40)
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    return figure
+
+
+#: Outcome of the constraints to its colour in maps.
+_OUTCOMES = {
+    Status.FEASIBLE: GREEN,
+    Status.OUT_OF_REACH: "0.85",
+    Status.JOINT_LIMITS: ORANGE,
+    Status.SINGULAR: PURPLE,
+    Status.COLLISION: RED,
+}
+
+
+def statuses_figure(placement: Placement, box: np.ndarray) -> Any:
+    """Which constraint excludes a position, on two planes through the best point of a grid."""
+    points = grid_points(box, 0.15)
+    centre = points[placement(points).argmax()]
+    colors = ListedColormap(list(_OUTCOMES.values()))
+    with house_style():
+        figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 4.0))
+        for ax, (i, j) in zip(axes, ((0, 1), (1, 2)), strict=True):
+            across, up = (np.linspace(box[k, 0], box[k, 1], _STEPS) for k in (i, j))
+            grid = np.meshgrid(across, up, indexing="ij")
+            points = np.tile(centre, (_STEPS * _STEPS, 1))
+            points[:, i], points[:, j] = grid[0].ravel(), grid[1].ravel()
+            found = np.concatenate([placement.jobs(some).status for some in blocks(points)])
+            ax.pcolormesh(across, up, found.reshape(_STEPS, _STEPS).T, cmap=colors,
+                          vmin=-0.5, vmax=4.5, rasterized=True)  # fmt: skip
+            other = 3 - i - j
+            ax.set(xlabel=f"{'xyz'[i]} [m]", ylabel=f"{'xyz'[j]} [m]", aspect="equal",
+                   title=f"{'xyz'[other]} = {centre[other] + 0.0:.2f} m")  # fmt: skip
+            ax.grid(False)
+        patches = [
+            Patch(facecolor=color, edgecolor="0.4", label=status.name.lower().replace("_", " "))
+            for status, color in _OUTCOMES.items()
+        ]
+        figure.legend(handles=patches, loc="outside lower center", ncols=5)
     return figure
 
 

@@ -52,3 +52,26 @@ def joints_figure(cell: Cell, q: np.ndarray) -> Any:
                       title="joints, and their limits in degrees (bars at the left)",
                       alignment="left")  # fmt: skip
     return figure
+
+
+def rates_figure(used: np.ndarray, fastest: float) -> Any:
+    """Largest joint speed of each robot over its limit, at the fastest pace of the torch.
+
+    Parameters
+    ----------
+    used : ndarray (3, N, 6)
+        dq/ds over the speed limit of the joint [s/m].
+    fastest : float
+        Pace of the torch along the seam [m/s].
+    """
+    with house_style():
+        figure, ax = plt.subplots(figsize=(WIDTH, 3.4))
+        share = fastest * abs(used).max(axis=2)
+        for name, color, values in zip(ROBOTS, ROBOT_COLORS, share, strict=True):
+            ax.plot(values, color=color, label=name)
+        ax.axhline(1.0, color=BLACK, lw=0.9, ls="--", label="limit")
+        pace = f"share of the speed limit\nat {1e3 * fastest:.0f} mm/s along the seam"
+        ax.set(xlabel="seam point", ylabel=pace, ylim=(0, 1.08))
+        ax.margins(x=0)
+        name_ends(ax)
+    return figure

@@ -141,8 +141,8 @@ def _skeleton(cell: Cell, robot: int, q: np.ndarray) -> np.ndarray:
 
 def _workpiece(ax: Any, cell: Cell, centre: np.ndarray, index: int) -> None:
     R = cell.rotations[index]
-    for core, radius in zip(cell.pipe_cores, cell.pipe_radii, strict=True):
-        surface = _capsule(core @ R.T + centre, radius)
+    for axis, radius in zip(cell.pipe_axes, cell.pipe_radii[:2], strict=True):
+        surface = _tube(axis @ R.T + centre, radius)
         ax.plot_surface(*surface, color="0.5", alpha=0.3, lw=0, rasterized=True, zorder=2)
     seam = np.vstack([cell.seam, cell.seam[:1]]) @ R.T + centre
     ax.plot(*seam.T, color=ORANGE, lw=2, zorder=4)
@@ -150,6 +150,20 @@ def _workpiece(ax: Any, cell: Cell, centre: np.ndarray, index: int) -> None:
 
 def _capsule(core: np.ndarray, radius: float) -> list[np.ndarray]:
     """Surface of a capsule with a core (2, 3) as three arrays."""
+    polar = np.concatenate([np.linspace(0, np.pi / 2, 7), np.linspace(np.pi / 2, np.pi, 7)])
+    length = float(np.linalg.norm(core[1] - core[0]))
+    along = radius * -np.cos(polar) + np.where(np.arange(14) < 7, 0.0, length)
+    return _turned(core, along, radius * np.sin(polar))
+
+
+def _tube(axis: np.ndarray, radius: float) -> list[np.ndarray]:
+    """Surface of a cylinder with flat ends around an axis (2, 3) as three arrays."""
+    length = float(np.linalg.norm(axis[1] - axis[0]))
+    return _turned(axis, np.array([0.0, 0.0, length, length]), radius * np.array([0, 1, 1, 0]))
+
+
+def _turned(core: np.ndarray, along: np.ndarray, ring: np.ndarray) -> list[np.ndarray]:
+    """Surface of revolution about a core (2, 3): radii ``ring`` at the places ``along``."""
     start, end = core
     axis = end - start
     length = float(np.linalg.norm(axis))
@@ -157,10 +171,7 @@ def _capsule(core: np.ndarray, radius: float) -> list[np.ndarray]:
     x = np.cross(z, np.eye(3)[np.argmin(abs(z))])
     x /= np.linalg.norm(x)
     y = np.cross(z, x)
-    polar = np.concatenate([np.linspace(0, np.pi / 2, 7), np.linspace(np.pi / 2, np.pi, 7)])
-    along = radius * -np.cos(polar) + np.where(np.arange(14) < 7, 0.0, length)
-    around = np.linspace(0, 2 * np.pi, 19)
-    ring = radius * np.sin(polar)
+    around = np.linspace(0, 2 * np.pi, 25)
     points = (
         start[:, None, None]
         + z[:, None, None] * along[None, None, :]
@@ -183,9 +194,9 @@ def _draw_robots(ax: Any, cell: Cell, q: np.ndarray, index: int, *, thick: bool)
 
 
 def _grip(cell: Cell, robot: int, q: np.ndarray, index: int) -> np.ndarray:
-    """The place of the workpiece that a carrier holds: the end of a core nearest to its flange."""
+    """The end of the main pipe that a carrier holds, as its flange has it."""
     flange = cell.flanges[robot, index, :3, 3]
-    ends = cell.pipe_cores.reshape(-1, 3) @ cell.rotations[index].T
+    ends = cell.pipe_axes[0] @ cell.rotations[index].T
     nearest = ends[np.linalg.norm(ends - flange, axis=1).argmin()]
     return _skeleton(cell, robot, q[robot, index])[-1] + (nearest - flange)
 

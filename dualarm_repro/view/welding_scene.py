@@ -63,10 +63,8 @@ def job_scene(
 
 def _add_workpiece(made: Scene3D, cell: Cell) -> None:
     parts = made.contents.parts
-    shapes = zip(cell.pipe_cores, cell.pipe_radii, strict=True)
-    for (start, end), radius in shapes:
-        axis = int(np.argmax(abs(end - start)))
-        length = float(np.linalg.norm(end - start)) + 2 * radius * (axis == 0)
+    for (start, end), radius in zip(cell.pipe_axes, cell.pipe_radii[:2], strict=True):
+        length = float(np.linalg.norm(end - start))
         z = np.array([0.0, 0.0, 1.0])
         turn = pin.Quaternion.FromTwoVectors(z, (end - start) / np.linalg.norm(end - start))
         pose = pin.SE3(turn.matrix(), 0.5 * (start + end)).homogeneous

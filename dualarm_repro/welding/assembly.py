@@ -16,6 +16,9 @@ from .seam import Seam, saddle_seam
 from .tooling import Torch, grasp_pose, torch_axes, torch_flanges, with_tool
 
 BASE_READINGS = ("inverted", "literal")
+#: Points of the carriers whose velocities their ellipsoids describe: the origin of the workpiece,
+#: common to both, the end of the pipe that each holds, or its own flange.
+CARRIER_REFERENCES = ("workpiece_origin", "pipe_end", "own_flange")
 
 
 @dataclass(frozen=True)
@@ -39,16 +42,29 @@ class Workpiece:
         return saddle_seam(self.radius_main, self.radius_branch, self.seam_points)
 
     @property
-    def cores(self) -> np.ndarray:
-        """Cores (2, 2, 3) of the capsules inside both pipes [m]; the caps end with the pipe."""
-        half = max(0.5 * self.length - self.radius_main, 0.0)
-        top = self.radius_main + self.branch_length - self.radius_branch
+    def axes(self) -> np.ndarray:
+        """Ends of the axes of main pipe and branch (2, 2, 3) [m]."""
+        half, top = 0.5 * self.length, self.radius_main + self.branch_length
         return np.array([[[-half, 0, 0], [half, 0, 0]], [[0, 0, 0], [0, 0, top]]])
 
     @property
+    def cores(self) -> np.ndarray:
+        """Cores (4, 2, 3) of capsules that contain the pipes, flat ends included [m].
+
+        The main pipe is a capsule of its radius R that ends with it and, at c = (l - R) / 2 on both
+        sides, a ball through the rim and the circle where that capsule begins to narrow, of radius
+        sqrt(R^2 + (l/2 - c)^2); the branch is a capsule as long as its axis.
+        """
+        half = max(0.5 * self.length - self.radius_main, 0.0)
+        ball = max(0.5 * (self.length - self.radius_main), 0.0)
+        axis = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+        return np.stack([half * axis, self.axes[1], ball * axis[[0, 0]], ball * axis[[1, 1]]])
+
+    @property
     def radii(self) -> np.ndarray:
-        """Their radii (2,) [m]."""
-        return np.array([self.radius_main, self.radius_branch])
+        """Their radii (4,) [m]."""
+        rim = float(np.hypot(self.radius_main, 0.5 * self.length - self.cores[3, 0, 0]))
+        return np.array([self.radius_main, self.radius_branch, rim, rim])
 
 
 @dataclass(frozen=True)
@@ -98,13 +114,13 @@ def assemble(
     *,
     floor: float | None,
     threshold: float,
+    reference: str = CARRIER_REFERENCES[0],
 ) -> Cell:
     """The cell of two carriers and a welder.
 
     Each carrier holds the end of the main pipe on its own side; the workpiece turns about its
     origin so that the current seam point is flat, and the tip of the torch stays on that point.
-    Reference points of the velocity ellipsoids are the workpiece origin for the carriers, which the
-    rigid grasp makes common to both, and the tip of the torch for the welder.
+    The velocity ellipsoid of the welder is that of the tip of the torch.
 
     Parameters
     ----------
@@ -118,7 +134,17 @@ def assemble(
         Height of the floor [m].
     threshold : float
         Manipulability [m^3] at or below which a configuration counts as singular.
+    reference : str
+        One of :data:`CARRIER_REFERENCES`; it matters to the volumes of their ellipsoids only.
+
+    Raises
+    ------
+    UnknownNameError
+        No such posture, grasp, torch axis or reference.
     """
+    if reference not in CARRIER_REFERENCES:
+        expected = f"one of {', '.join(CARRIER_REFERENCES)}"
+        raise UnknownNameError("assemble", "reference", reference, expected)
     seam = workpiece.seam
     rotations = flat_rotations(seam, posture)
     torch = tools.torch
@@ -127,19 +153,28 @@ def assemble(
     bisector = np.einsum("nij,nj->ni", rotations, seam.bisector)
     turned = homogeneous(rotations, np.zeros(3))
     size = 0.5 * workpiece.length, workpiece.radius_main
-    sides = (tuple(base[:2, 3]) for base in bases[:WELDER])
+    sides = [tuple(base[:2, 3]) for base in bases[:WELDER]]
     grasps = [grasp_pose(tools.grasp, side, *size, tools.gripper_length) for side in sides]
     axes = torch_axes(tools.torch_axis, bisector, towards)
     flanges = [*(turned @ grasp for grasp in grasps), torch_flanges(tips, axes, towards, torch)]
     gripper = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, tools.gripper_length]]])
     first, second = (with_tool(arm, gripper, tools.gripper_radius) for arm in arms[:WELDER])
+    match reference:
+        case "workpiece_origin":
+            points = [np.zeros_like(tips)] * 2
+        case "pipe_end":
+            points = [np.sign(x) * turned[:, :3, 0] * size[0] for x, _ in sides]
+        case _:
+            points = [flange[:, :3, 3] for flange in flanges[:WELDER]]
     return Cell(
         arms=(first, second, with_tool(arms[WELDER], torch.cores, torch.radius)),
         bases=bases,
         rotations=rotations,
         flanges=np.stack(flanges),
-        references=np.stack([np.zeros_like(tips), np.zeros_like(tips), tips]),
+        references=np.stack([*points, tips]),
+        torch_axis=np.array(axes),
         seam=seam.points,
+        pipe_axes=workpiece.axes,
         pipe_cores=workpiece.cores,
         pipe_radii=workpiece.radii,
         floor=floor,

@@ -33,7 +33,8 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     on one branch. Each of the eight is continued along all poses without limits, its angles are
     unwrapped and each joint's path is shifted by one number of full turns into the limits. Of the
     branches that pass, the one with the largest mean manipulability is taken (of equal ones the
-    first).
+    first). The path is closed and its poses are samples of a smooth one: a branch whose wrist could
+    leave the arm's reach between two of them does not pass.
 
     Parameters
     ----------
@@ -83,7 +84,7 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
             if b == passed + 1 and b % 2 == 1:
                 continue
             path[:] = found[:, b]
-            if np.isnan(path).any():
+            if np.isnan(path).any() or not _reached_between(geometry, path):
                 continue
             if not _within(path, lower, upper, middle):
                 furthest = max(furthest, 2)
@@ -107,6 +108,35 @@ def _any_branch(found):
         if not np.isnan(found[:, b, 0]).any():
             return True
     return False
+
+
+@kernel
+def _reached_between(geometry, path):
+    """Whether the wrist stays within reach between the samples of a closed path.
+
+    r^2 = l_2^2 + l_3^2 + 2 l_2 l_3 cos phi is the square of its distance from the shoulder. Between
+    two samples a smooth function exceeds them by at most h^2 / 8 max |f''|, which is an eighth of
+    its largest second difference.
+    """
+    upper, fore, count = geometry.upper_arm, geometry.forearm, len(path)
+    r = np.empty(count)
+    for n in range(count):
+        pitch = path[n, 1] + geometry.elbow_sign * path[n, 2]
+        s2, c2, s3, c3 = (
+            math.sin(path[n, 1]),
+            math.cos(path[n, 1]),
+            math.sin(pitch),
+            math.cos(pitch),
+        )
+        sine2, cosine2 = s2 * upper[2] + c2 * upper[1], c2 * upper[2] - s2 * upper[1]
+        sine3, cosine3 = s3 * fore[2] + c3 * fore[1], c3 * fore[2] - s3 * fore[1]
+        square = upper[0] ** 2 + fore[0] ** 2
+        r[n] = math.sqrt(square + 2.0 * upper[0] * fore[0] * (cosine2 * cosine3 + sine2 * sine3))
+    bend = 0.0
+    for n in range(count):
+        bend = max(bend, abs(r[n - 1] - 2.0 * r[n] + r[(n + 1) % count]))
+    inner, outer = abs(upper[0] - fore[0]), upper[0] + fore[0]
+    return min(outer - r.max(), r.min() - inner) >= 0.125 * bend
 
 
 @kernel

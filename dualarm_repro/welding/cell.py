@@ -35,10 +35,15 @@ class Cell:
         Poses of the flanges.
     references : ndarray (3, N, 3)
         The points whose velocities the ellipsoids describe [m].
+    torch_axis : ndarray (N, 3)
+        Unit vector out of the tip of the torch, in world axes.
     seam : ndarray (N, 3)
         Seam points in the frame of the workpiece [m].
+    pipe_axes : ndarray (2, 2, 3)
+        Ends of the axes of main pipe and branch in the frame of the workpiece [m].
     pipe_cores : ndarray (K, 2, 3)
-        Cores of the workpiece's capsules in its frame [m].
+        Cores of the capsules that contain the pipes, in the same frame [m]; those of both pipes
+        come first.
     pipe_radii : ndarray (K,)
         [m]
     floor : float or None
@@ -61,7 +66,9 @@ class Cell:
     rotations: np.ndarray
     flanges: np.ndarray
     references: np.ndarray
+    torch_axis: np.ndarray
     seam: np.ndarray
+    pipe_axes: np.ndarray
     pipe_cores: np.ndarray
     pipe_radii: np.ndarray
     floor: float | None
@@ -78,7 +85,9 @@ class Cell:
             "rotations": (count, 3, 3),
             "flanges": (3, count, 4, 4),
             "references": (3, count, 3),
+            "torch_axis": (count, 3),
             "seam": (count, 3),
+            "pipe_axes": (2, 2, 3),
             "pipe_cores": (len(self.pipe_radii), 2, 3),
         }
         for name, shape in shapes.items():

@@ -20,6 +20,7 @@ from ..errors import InputError, UnknownNameError
 Fitness = Callable[[np.ndarray], np.ndarray]
 MUTATIONS = ("gaussian", "adaptive_feasible")
 INFEASIBLE = ("zero", "redraw")
+STALLS = ("mean", "best")
 _REDRAWS = 10
 _SMALLEST_STEP = 1e-6
 
@@ -43,9 +44,11 @@ class GeneticSettings:
         ``adaptive_feasible``: one step in a random direction, kept inside the box, four times
         longer after a success and four times shorter after a failure.
     stall : float
-        The run ends when the mean fitness changed by less than this share per generation ...
+        The run ends when the fitness changed by less than this share per generation ...
     stall_generations : int
         ... on average over as many generations.
+    stall_of : str
+        Of which fitness: the ``mean`` of the generation or its ``best``.
     infeasible : str
         ``zero``: fitness 0; ``redraw``: drawn anew from the box, at most ten times.
     """
@@ -57,6 +60,7 @@ class GeneticSettings:
     mutation: str = "gaussian"
     stall: float = 1e-6
     stall_generations: int = 10
+    stall_of: str = "mean"
     infeasible: str = "zero"
 
     def __post_init__(self) -> None:
@@ -71,7 +75,8 @@ class GeneticSettings:
                 raise InputError(
                     "genetic algorithm", name, getattr(self, name), "a share in [0, 1)"
                 )
-        for name, choices in (("mutation", MUTATIONS), ("infeasible", INFEASIBLE)):
+        named = {"mutation": MUTATIONS, "infeasible": INFEASIBLE, "stall_of": STALLS}
+        for name, choices in named.items():
             if getattr(self, name) not in choices:
                 expected = f"one of {', '.join(choices)}"
                 raise UnknownNameError("genetic algorithm", name, getattr(self, name), expected)
@@ -169,15 +174,22 @@ def rank(search: Search) -> None:
 
 
 def finished(search: Search) -> bool:
-    """Generation limit reached, or mean fitness stalled?"""
+    """Generation limit reached, or fitness stalled?"""
     settings, history = search.settings, search.history
     if len(history) > settings.generations:
         search.reason = "generations"
-    elif len(history) > settings.stall_generations:
-        means = np.array([g.mean for g in history[-1 - settings.stall_generations :]])
-        if means[-1] > 0 and np.abs(np.diff(means)).mean() <= settings.stall * means[-1]:
-            search.reason = "stall"
+    elif rests(np.array([getattr(g, settings.stall_of) for g in history]), settings):
+        search.reason = "stall"
     return search.reason is not None
+
+
+def rests(values: np.ndarray, settings: GeneticSettings) -> bool:
+    """Whether the fitness (G,) of the generations has changed too little to go on."""
+    window = settings.stall_generations
+    if len(values) <= window or values[-1] <= 0:
+        return False
+    changes = np.abs(np.diff(values[-1 - window :]))
+    return bool(changes.mean() <= settings.stall * values[-1])
 
 
 def select(search: Search) -> None:

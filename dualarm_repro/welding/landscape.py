@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arms.wrist_ik import inverse_kinematics
 from ..errors import UnknownNameError
-from .cell import WELDER
+from .cell import WELDER, Cell
 from .genetic import Fitness
 from .grid_search import Optimum, best_cells, grid_points, refined
 from .placement import Placement, blocks
@@ -22,6 +23,7 @@ EXTREMES = {
     "lowest_mean_of_welder": lambda w, system: 1.0 / w[:, WELDER].mean(axis=1),
     "largest_variation": lambda w, system: system.std(axis=1) / system.mean(axis=1),
     "largest_swing": lambda w, system: np.ptp(system, axis=1) / system.max(axis=1),
+    "nearest_singularity": lambda w, system: 1.0 / w.min(axis=(1, 2)),
 }
 
 
@@ -56,6 +58,18 @@ def nearer_image(found: Optimum, fitness: Fitness, target: np.ndarray) -> Optimu
     return found._replace(position=image, fitness=value) if same else found
 
 
+def reaches_point(cell: Cell, centres: np.ndarray, point: int) -> np.ndarray:
+    """Whether every robot reaches one seam point within its limits, (P, 3) [m] -> mask (P,)."""
+    reached = np.ones(len(centres), dtype=bool)
+    for k, geometry in enumerate(cell.geometries):
+        poses = np.tile(cell.flanges[k, point], (len(centres), 1, 1))
+        poses[:, :3, 3] += centres
+        local = np.linalg.inv(cell.bases[k]) @ poses
+        found = inverse_kinematics(geometry, local, np.zeros(6), *cell.limits(k))
+        reached &= ~np.isnan(found[..., 0]).all(axis=1)
+    return reached
+
+
 def extreme_position(
     placement: Placement,
     box: np.ndarray,
@@ -74,7 +88,8 @@ def extreme_position(
     rule : str
         A key of :data:`EXTREMES`: ``lowest_welder`` (its largest manipulability along the seam is
         smallest), ``lowest_mean_of_welder``, ``largest_variation`` (coefficient of variation of
-        the system measure) or ``largest_swing`` (its range over its maximum).
+        the system measure), ``largest_swing`` (its range over its maximum) or
+        ``nearest_singularity`` (the smallest manipulability of any robot is smallest).
     spacing, starts, tolerance
         As in :func:`.grid_search.grid_optimum`.
 

@@ -18,7 +18,7 @@ from .cell import ROBOTS, WELDER, Cell
 from .nearest import smallest_distances
 
 WORKPIECE = "workpiece"
-HELD = f"{WORKPIECE}/0"  # the pipe that the carriers hold
+HELD = tuple(f"{WORKPIECE}/{k}" for k in (0, 2, 3))  # the pipe that the carriers hold
 _BLOCK = 8  # placements handled at once, so that their cores stay in the cache of the processor
 _NO_WITNESS = np.empty((0, 0, 3, 3))
 
@@ -66,20 +66,33 @@ class Separation:
 
     def cores(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Cores of all capsules in the world, (P, 3, N, 6) and (P, 3) -> (P N, C, 2, 3) [m]."""
-        cell = self.cell
-        ends = np.empty((len(centres) * cell.count, len(self.bodies.radius), 2, 3))
-        start = 0
+        postures = np.moveaxis(q, 1, 2).reshape(-1, *q.shape[1::2])
+        turns = np.tile(self.cell.rotations, (len(q), 1, 1))
+        return self.posed(postures, turns, np.repeat(centres, self.cell.count, axis=0))
+
+    def posed(self, q: np.ndarray, rotations: np.ndarray, centres: np.ndarray) -> np.ndarray:
+        """Cores (M, C, 2, 3) [m] of single postures: (M, 3, 6), (M, 3, 3) and (M, 3)."""
+        cell, start = self.cell, 0
+        ends = np.empty((len(q), len(self.bodies.radius), 2, 3))
         for k, arm in enumerate(cell.arms):
             links = links_of(arm)
             stop = start + len(links.radius)
-            path = np.ascontiguousarray(q[:, k].reshape(-1, arm.nq))
-            frames = link_frames(arm.chain, np.ascontiguousarray(cell.bases[k][:3]), path)
+            base = np.ascontiguousarray(cell.bases[k][:3])
+            frames = link_frames(arm.chain, base, np.ascontiguousarray(q[:, k]))
             place_cores(frames, links.joint, links.local, ends[:, start:stop])
             start = stop
-        turned = np.einsum("nij,kej->nkei", cell.rotations, cell.pipe_cores)
-        placed = centres[:, np.newaxis, np.newaxis, np.newaxis] + turned
-        ends[:, start:] = placed.reshape(-1, *cell.pipe_cores.shape)
+        turned = np.einsum("nij,kej->nkei", rotations, cell.pipe_cores)
+        ends[:, start:] = centres[:, np.newaxis, np.newaxis] + turned
         return ends
+
+    def distances(self, ends: np.ndarray) -> np.ndarray:
+        """Signed distance of every pair in the order of ``pairs``, (M, C, 2, 3) -> (M, K) [m]."""
+        bodies, rows = self.bodies, self.pairs.rows
+        distance = np.empty((len(ends), len(self.pairs)))
+        between, above = np.split(distance, [len(rows["capsule"])], axis=1)
+        capsules_capsules(ends, bodies.radius, rows["capsule"], between, _NO_WITNESS)
+        capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
+        return distance
 
     def smallest(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
@@ -105,16 +118,10 @@ class Separation:
         ndarray (P, K) [m]
             In the order of ``pairs``.
         """
-        out, bodies = np.empty((len(centres), len(self.pairs))), self.bodies
-        rows = self.pairs.rows
+        out = np.empty((len(centres), len(self.pairs)))
         for block in blocks(len(centres), _BLOCK):
-            ends = self.cores(q[block], centres[block])
-            distance = np.empty((len(ends), out.shape[1]))
-            between, above = np.split(distance, [len(rows["capsule"])], axis=1)
-            capsules_capsules(ends, bodies.radius, rows["capsule"], between, _NO_WITNESS)
-            capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
-            shape = (-1, self.cell.count, out.shape[1])
-            out[block] = distance.reshape(shape).min(axis=1)
+            distance = self.distances(self.cores(q[block], centres[block]))
+            out[block] = distance.reshape(-1, self.cell.count, out.shape[1]).min(axis=1)
         return out
 
 
@@ -137,7 +144,7 @@ def _watched(a: Body, b: Body) -> bool:
         return False
     if a.owner == b.owner:
         return b.joint is not None and min(a.joint, b.joint) <= 2 and max(a.joint, b.joint) == 6
-    return b.name != HELD or a.owner == ROBOTS[WELDER] or a.joint < 6
+    return b.name not in HELD or a.owner == ROBOTS[WELDER] or a.joint < 6
 
 
 def _owner(body: Body) -> str:

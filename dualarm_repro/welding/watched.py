@@ -87,26 +87,26 @@ def watch(
     return trace
 
 
-def first_stop(means: np.ndarray, generations: int, smallest: float) -> tuple[int, str]:
+def first_stop(values: np.ndarray, settings: GeneticSettings) -> tuple[int, str]:
     """Generation at which a run has to end, and by which rule (``none``: by neither).
 
-    Generation limit reached, or a mean fitness whose change from one generation to the next is, on
+    Generation limit reached, or a fitness whose change from one generation to the next is, on
     average over the window of the settings, at most the smallest relative change.
 
     Parameters
     ----------
-    means : ndarray (G,)
-        Mean fitness of each generation, the first one included.
+    values : ndarray (G,)
+        The fitness that the settings watch, of each generation, the first one included.
     """
-    window = GeneticSettings.stall_generations
-    for last in range(len(means)):
-        if last >= generations:
+    window = settings.stall_generations
+    for last in range(len(values)):
+        if last >= settings.generations:
             return last, "generations"
-        recent = means[max(0, last - window) : last + 1]
-        rests = np.abs(np.diff(recent)).sum() <= window * smallest * means[last]
-        if last >= window and means[last] > 0 and rests:
+        recent = values[max(0, last - window) : last + 1]
+        least = window * settings.stall * values[last]
+        if last >= window and values[last] > 0 and np.abs(np.diff(recent)).sum() <= least:
             return last, "stall"
-    return len(means), "none"
+    return len(values), "none"
 
 
 @dataclass(eq=False)

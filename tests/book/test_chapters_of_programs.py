@@ -133,7 +133,7 @@ def test_the_draws_of_the_page_are_those_of_the_study():
 def test_the_cell_of_the_page_is_that_of_the_items():
     names = run_cells("pan/cell").names
     own, judged = names["cell"], Job.of(names["assumed"]).cell()
-    for array in ("bases", "rotations", "flanges", "references", "seam", "pipe_cores"):
+    for array in ("bases", "rotations", "flanges", "references", "seam", "pipe_axes", "pipe_cores"):
         assert np.allclose(getattr(own, array), getattr(judged, array), atol=1e-12), array
     assert own.threshold == judged.threshold
     assert own.floor == judged.floor

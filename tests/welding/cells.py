@@ -22,6 +22,7 @@ def make_cell(
     lift=0.0,
     radii=(0.10, 0.06),
     arms=None,
+    reference="workpiece_origin",
 ):
     bases = BASES.copy()
     bases[:, 2, 3] += lift
@@ -33,4 +34,5 @@ def make_cell(
         Tools(grasp, 0.15, 0.06, Torch(0.35, crank, 0.02, 0.10), axis),
         floor=floor,
         threshold=1e-3,
+        reference=reference,
     )

@@ -19,7 +19,9 @@ from dualarm_repro.welding import (
     base_poses,
     closed_form,
 )
+from dualarm_repro.welding.assembly import CARRIER_REFERENCES
 from dualarm_repro.welding.branches import follow
+from dualarm_repro.welding.ellipsoid import ellipsoid_volume
 from dualarm_repro.welding.grid_search import grid_points
 
 from .cells import BASES, BOX, make_cell
@@ -240,3 +242,40 @@ def test_arms_may_differ():
 
 def _fields(cell):
     return {name: value for name, value in vars(cell).items() if name not in ("geometries",)}
+
+
+def test_a_wrist_that_leaves_the_reach_between_two_points_is_out_of_reach():
+    """Feasible on a seam means feasible on every denser one, at the edge of the reach too."""
+    coarse, dense = (Placement(make_cell(count=n, floor=None), Objective()) for n in (24, 720))
+    inner, outer = np.array([0.0, 0.1, 0.8]), np.array([0.0, 0.1, 2.5])
+    for _ in range(40):
+        middle = 0.5 * (inner + outer)
+        inside = coarse.jobs([middle]).status[0] != Status.OUT_OF_REACH
+        inner, outer = (middle, outer) if inside else (inner, middle)
+    assert dense.jobs([inner]).status[0] != Status.OUT_OF_REACH
+    assert dense.jobs([outer]).status[0] != Status.OUT_OF_REACH  # the bound is on the safe side
+
+
+def test_the_reference_of_the_carriers_changes_their_weight_and_nothing_else():
+    found = {}
+    for reference in CARRIER_REFERENCES:
+        placement = Placement(make_cell(reference=reference), Objective())
+        jobs = placement.jobs([[0.0, 0.1, 0.8]])
+        found[reference] = jobs, placement.measures(jobs)
+    (jobs, measures), *others = found.values()
+    for other, weighted in others:
+        assert np.array_equal(other.q, jobs.q)
+        assert np.array_equal(weighted.tight, measures.tight)
+        assert abs(weighted.beta_tight / measures.beta_tight - 1).max() > 0.05
+    own = found["own_flange"]
+    gram = gram_of(own[0], make_cell(reference="own_flange"))
+    assert np.allclose(0.5 * sum(1 / ellipsoid_volume(a) for a in gram), own[1].beta_tight[0])
+
+
+def gram_of(jobs, cell):
+    return [np.array([j @ j.T for j in cell.arms[k].jacobian(jobs.q[0, k])[:, :3]]) for k in (0, 1)]
+
+
+def test_an_unknown_reference_is_named():
+    with pytest.raises(UnknownNameError, match="reference"):
+        make_cell(reference="elbow")

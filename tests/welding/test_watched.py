@@ -1,5 +1,7 @@
 """A watched run is the run itself, and stop rules end it where they first hold."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -28,8 +30,25 @@ def test_watched_run_is_the_run(mutation):
 
 def test_first_stop():
     rising, resting = np.linspace(1, 2, 40), np.ones(40)
-    assert first_stop(rising, 30, 1e-6) == (30, "generations")
-    assert first_stop(resting, 30, 1e-6) == (10, "stall")
-    assert first_stop(resting, 5, 1e-6) == (5, "generations")
-    assert first_stop(rising[:5], 30, 1e-6) == (5, "none")
-    assert first_stop(np.zeros(40), 30, 1e-6) == (30, "generations")
+    settings = GeneticSettings(generations=30, stall=1e-6)
+    assert first_stop(rising, settings) == (30, "generations")
+    assert first_stop(resting, settings) == (10, "stall")
+    assert first_stop(resting, replace(settings, stall_generations=20)) == (20, "stall")
+    assert first_stop(resting, replace(settings, generations=5)) == (5, "generations")
+    assert first_stop(rising[:5], settings) == (5, "none")
+    assert first_stop(np.zeros(40), settings) == (30, "generations")
+
+
+def test_a_run_can_be_ended_by_its_best_fitness():
+    """The best rests for long while mutants still change the mean."""
+    placement = Placement(make_cell(count=12), Objective())
+    settings = GeneticSettings(generations=60, mutation="gaussian", stall_generations=8)
+    ends = {}
+    for watched in ("mean", "best"):
+        chosen = replace(settings, stall_of=watched)
+        run = evolve(placement, BOX, chosen, np.random.default_rng(3))
+        values = np.array([getattr(generation, watched) for generation in run.history])
+        ends[watched] = (len(values) - 1, run.reason)
+        assert first_stop(values, chosen) == ends[watched]
+    assert ends["best"][1] == "stall"
+    assert ends["best"] < ends["mean"]

@@ -73,10 +73,14 @@ def robot_table(name: str) -> DHRobot:
 
 @memo()
 def stand_in(name: str, shoulder_height: float | None = None, scale: float = 1.0) -> Arm:
-    """One of the stand-in arms, its shoulder moved and its capsules scaled if asked for."""
+    """One of the stand-in arms, its shoulder moved and its capsules scaled if asked for.
+
+    The height applies where that of the file is a stand-in; a documented robot keeps its own.
+    """
     robot = robot_table(name)
     first, *rest = robot.joints
-    raised = 0.0 if shoulder_height is None else shoulder_height - first.d
+    free = robot.provenance["d"].evidence == "stand-in"
+    raised = shoulder_height - first.d if free and shoulder_height is not None else 0.0
 
     def moved(capsule: Any) -> Any:
         start = capsule.start

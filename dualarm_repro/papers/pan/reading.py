@@ -52,6 +52,8 @@ DENSER = 10
 #: Seam point at which the cell is drawn.
 SHOWN = {"first_seam_point": 0}
 _NO_SOLUTION = "No position of the region is feasible, so the problem has no solution."
+#: Generations over which each stall rule averages.
+_STALLS = {"mean_over_10": 10, "best_over_50": 50}
 _FLOORS = {"present": 0.0, "absent": None}
 #: Answers kept: small ones of every draw, large ones of the last few.
 _SMALL, _LARGE, _CELLS = 4096, 16, 64
@@ -102,6 +104,7 @@ class Job(FlatSeam):
     link_radius_scale: float
     torch_exemption: float
     floor: str
+    carrier_reference: str
 
     @memo(_CELLS)
     def cell(self) -> Cell:
@@ -117,6 +120,7 @@ class Job(FlatSeam):
             Tools(self.grasp, self.gripper_length, scale * GRIPPER_RADIUS, torch, self.torch_axis),
             floor=_FLOORS[self.floor],
             threshold=self.singularity_threshold,
+            reference=self.carrier_reference,
         )
 
     def placement(self, objective: Objective | None = None) -> Placement:
@@ -162,7 +166,14 @@ class Genetic(FromAssumptions):
     ga_elite: float
     ga_mutation: str
     ga_stall: float
+    ga_stall_rule: str
+    ga_box: tuple[tuple[float, float], ...]
     infeasible_fitness: str
+
+    @property
+    def box(self) -> np.ndarray:
+        """Bounds of the individuals (3, 2) [m]."""
+        return np.array(self.ga_box)
 
     def settings(self) -> GeneticSettings:
         """The same in the words of the method."""
@@ -173,6 +184,8 @@ class Genetic(FromAssumptions):
             elite=self.ga_elite,
             mutation=self.ga_mutation,
             stall=self.ga_stall,
+            stall_of=self.ga_stall_rule.split("_")[0],
+            stall_generations=_STALLS[self.ga_stall_rule],
             infeasible=self.infeasible_fitness,
         )
 
@@ -276,14 +289,14 @@ def at_optimum(assumed: Mapping[str, Any]) -> tuple[Cell, Jobs, np.ndarray, Meas
 def one_run(problem: Problem, settings: Genetic) -> Evolution:
     """One seeded run of the search, as the document describes one."""
     rng = np.random.default_rng(SEED)
-    return evolve(problem.placement(), problem.box, settings.settings(), rng, must_find=False)
+    return evolve(problem.placement(), settings.box, settings.settings(), rng, must_find=False)
 
 
 @memo(_LARGE)
 def traced(problem: Problem, settings: Genetic) -> Trace:
     """One seeded run of the search, watched."""
     rng = np.random.default_rng(SEED)
-    return watch(problem.placement(), problem.box, settings.settings(), rng)
+    return watch(problem.placement(), settings.box, settings.settings(), rng)
 
 
 def job_scene_at(title: str, cell: Cell, jobs: Jobs, centre: np.ndarray) -> Scene3D:

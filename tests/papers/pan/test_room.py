@@ -56,6 +56,8 @@ def test_shoulder_and_radii_can_be_changed():
     low, high = stand_in("er16", 0.4), stand_in("er16", 0.5, 2.0)
     lift = high.fk(np.zeros(6)) - low.fk(np.zeros(6))
     assert np.allclose(lift[:3, 3], [0, 0, 0.1])
+    documented = {stand_in("kr16-2", height).fk(np.zeros(6))[2, 3] for height in (0.4, 0.5)}
+    assert len(documented) == 1  # keeps its own
     column = high.geometry.geometryObjects[0]
     assert column.geometry.halfLength == pytest.approx(0.25)
     assert column.geometry.radius == pytest.approx(0.32)
@@ -112,7 +114,15 @@ def test_genetic_runs_meet_the_ground_truth(registry):
     assert len(runs) == RUNS
     assert (runs["fitness"] > 0.999 * truth).all()
     history = EVOLUTION.load()
-    assert (history["fitness"] > 0.999 * truth).all()
+    assert ((history["fitness"] > 0.999 * truth) | (history["fitness"] == 0)).all()
+    assert (history["fitness"] == 0).mean() <= 0.1  # a first generation without a feasible one
+
+
+def test_no_optimum_lies_on_the_edge_of_the_region(registry):
+    table, box = CONSISTENCY.load(), Problem.of(REGISTRY.nominal("pan")).box
+    for name in OBJECTIVES:
+        found = table[[f"{name} {axis}" for axis in "xyz"]].dropna().to_numpy()
+        assert (np.minimum(found - box[:, 0], box[:, 1] - found) > 1e-3).all(), name
 
 
 def test_shoulder_height_moves_the_optimum_up_one_to_one(registry):

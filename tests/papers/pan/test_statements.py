@@ -1,12 +1,13 @@
 """What `pan` says of its search and its optimum is judged by rules that can fail."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
-from dualarm_repro.papers.pan.pages.optimum.printed_point import fitted
+from dualarm_repro.papers.pan.pages.optimum.printed_point import fitted, searched
 from dualarm_repro.papers.pan.pages.optimum.problem import constraint_disagreements
 from dualarm_repro.papers.pan.pages.search.algorithm import (
     declared_trace,
@@ -14,12 +15,15 @@ from dualarm_repro.papers.pan.pages.search.algorithm import (
     seen_steps,
     seen_stops,
 )
-from dualarm_repro.papers.pan.reading import Problem, surveyed
-from dualarm_repro.papers.pan.studies.fit import distance, loss
+from dualarm_repro.papers.pan.reading import Measure, Problem, surveyed
+from dualarm_repro.papers.pan.studies.consistency import OBJECTIVES, READINGS
+from dualarm_repro.papers.pan.studies.fit import MEASURES, distance, loss_at_print
 from dualarm_repro.welding import Status
+from dualarm_repro.welding.landscape import reaches_point
 
 #: A region out of reach of every robot.
-AWAY = {"search_box": [[4.0, 4.2], [4.0, 4.2], [4.0, 4.2]], "ga_generations": 15}
+_FAR = [[4.0, 4.2], [4.0, 4.2], [4.0, 4.2]]
+AWAY = {"search_box": _FAR, "ga_box": _FAR, "ga_generations": 15}
 
 
 @pytest.fixture(scope="module")
@@ -41,16 +45,59 @@ def test_a_choice_makes_the_printed_point_the_optimum(registry):
     limits = {n: t.value for n, t in REGISTRY.look("pan.claim_optimum").thresholds.items()}
     assert limits["inside_branch"] == REGISTRY.declared("pan.radius_branch", "range").range[0]
     found = fitted()[0]["values"]
-    assert distance(found) <= limits["inside_branch"]
-    assert loss(found) <= limits["three_digits"]
+    problem = Problem.of(REGISTRY.nominal("pan") | found)
+    assert distance(problem) <= limits["inside_branch"]
+    assert loss_at_print(problem) <= limits["three_digits"]
     assert evaluate(REGISTRY, "pan.claim_optimum", found).verdict is Verdict.UNDER_ASSUMPTION
     assert evaluate(REGISTRY, "pan.claim_optimum").verdict is Verdict.NOT_REPRODUCED
+
+
+def test_every_reading_is_searched_in_the_words_of_the_ledger(registry):
+    table = searched()
+    assert set(zip(table["base_transform"], table["measure"], strict=True)) == set(
+        product(READINGS, MEASURES)
+    )
+    for name, changes in MEASURES.items():
+        assert Measure.of(REGISTRY.nominal("pan") | changes).reading() == OBJECTIVES[name]
+    assert (table["evaluations"] >= table["evaluations"].max() / 4)[~table["met"]].all()
+
+
+def test_position_b_asks_for_faster_joints(registry):
+    calm = evaluate(REGISTRY, "pan.claim_sudden_turns").result.obtained
+    assert calm["ratio"] > 1.0
+    assert (
+        calm["position"] == evaluate(REGISTRY, "pan.claim_unstable_b").result.obtained["position"]
+    )
+
+
+def test_a_start_that_is_lost_was_within_reach(registry):
+    """Where the whole job is possible its first point is; the converse is what fails."""
+    task = Problem.of(REGISTRY.nominal("pan"))
+    grid = surveyed(task)
+    begun = reaches_point(task.job.cell(), grid.points, 0)
+    assert begun[grid.fitness > 0].all()
+    found = evaluate(REGISTRY, "pan.claim_bad_start").result.obtained
+    assert 0 < found["lost"] < found["begun"] == begun.sum() < len(begun)
+
+
+def test_coarse_points_are_no_weld(registry):
+    fine = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 72})
+    coarse = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 18})
+    assert fine.verdict.meets_print
+    assert coarse.verdict is Verdict.NOT_REPRODUCED
+    assert coarse.result.obtained["separation"] > 0
 
 
 @pytest.mark.parametrize(
     "key",
     [
+        "claim_bad_start",
         "claim_constraints",
+        "claim_energy",
+        "claim_joint_sequence",
+        "claim_meets_collision",
+        "claim_meets_singularity",
+        "claim_sudden_turns",
         "claim_fitness_converges",
         "claim_max_mmr",
         "claim_near_zero_robot3",
@@ -91,7 +138,7 @@ def test_steps_that_are_not_run_are_not_seen(trace):
     assert "constraints" not in seen_inputs(replace(trace, infeasible_passed_on=1))
     assert seen_steps(replace(trace, rated=trace.tested)) == []
     assert seen_steps(replace(trace, order=trace.order[::-1])) != seen_steps(trace)
-    assert seen_stops([trace]) == ["preset number of generations"]
+    assert seen_stops([trace]) == ["smallest change of the mean fitness"]
     assert seen_stops([replace(trace, history=trace.history[:-1])]) == []
 
 

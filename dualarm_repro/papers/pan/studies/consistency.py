@@ -26,7 +26,7 @@ READINGS = ("inverted", "literal")
 VARIED = ("arm", "shoulder_height", "radius_main", "radius_branch", "workpiece_length",
           "branch_length", "gripper_length", "grasp", "flat_posture", "torch_length",
           "torch_crank", "torch_axis", "base_orientation", "link_radius_scale",
-          "floor")  # fmt: skip
+          "floor", "carrier_reference")  # fmt: skip
 #: Readings of (16), by the names used in tables and figures.
 OBJECTIVES = {
     "inverse volume": Objective(),

@@ -13,7 +13,7 @@ from ....ledger.assumptions import Chosen
 from ....welding import OPTIMISERS as PEERS
 from ....welding import grid_optimum
 from ..document import SEED
-from ..reading import PROBLEM, Problem
+from ..reading import PROBLEM, Genetic, Problem
 
 RUNS = 10
 BUDGET = 4750  # evaluations
@@ -30,14 +30,15 @@ def cells() -> list[dict[str, Any]]:
 
 def compute(settings: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """One run of one optimiser on the declared problem, with the same budget for each."""
-    problem = Problem.of(REGISTRY.nominal("pan"))
+    values = REGISTRY.nominal("pan")
+    problem, box = Problem.of(values), Genetic.of(values).box
     placement, seed = problem.placement(), int(rng.integers(1, 2**31))
     placement(np.zeros((1, 3)))  # compiles
     start = time.process_time()
     if settings["optimiser"] == TRUTH:
         found = grid_optimum(placement, problem.box, TRUTH_SPACING, TRUTH_STARTS)
     else:
-        found = PEERS[settings["optimiser"]](placement, problem.box, BUDGET, seed)
+        found = PEERS[settings["optimiser"]](placement, box, BUDGET, seed)
     return {
         **dict(zip("xyz", map(float, found.position), strict=True)),
         "fitness": found.fitness,
@@ -52,7 +53,7 @@ OPTIMISERS = Study(
     cells=cells,
     compute=compute,
     seed=SEED,
-    settings=Chosen("pan", (*PROBLEM, "search_box"), ranges=True),
+    settings=Chosen("pan", (*PROBLEM, "search_box", "ga_box"), ranges=True),
     measured=("seconds",),
 )
 REGISTRY.keeps(OPTIMISERS)

@@ -14,6 +14,7 @@ from .....arms import Arm
 from .....arms.wrist_geometry import wrist_geometry
 from .....errors import DataFileError, UnsupportedArmError
 from .....ledger import REGISTRY, Adopts, Assumed, Bounded, Is, NoOriginal, Residual, Result, Role
+from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
 from .....ledger.printed import rounds_to
 from .....scene import posing
@@ -55,18 +56,49 @@ def robot_data(assumed: Assumed) -> Result:
             "largest_measure": float(closed_form(arm, q).max()),
             "evidence": robot.evidence,
         },
-        table=pd.DataFrame(
-            {
-                "joint": [joint.name for joint in robot.joints],
-                "alpha_deg": [np.degrees(float(joint.alpha)) for joint in robot.joints],
-                "a_m": [joint.a for joint in robot.joints],
-                "d_m": [height, *(joint.d for joint in robot.joints[1:])],
-                "offset_deg": [np.degrees(float(joint.offset)) for joint in robot.joints],
-                "lower_deg": np.degrees(arm.lower),
-                "upper_deg": np.degrees(arm.upper),
-            }
-        ),
+        table=_parameters(name, height),
         caption=caption("tab_none", title=robot.title),
+    )
+
+
+def _parameters(first: str, height: float) -> pd.DataFrame:
+    """Tables of all arms among the choices, that of one first, the interpolated one as raised."""
+    names = dict.fromkeys((first, *alternatives("pan.arm", 0)))
+    rows = []
+    for name in names:
+        arm = stand_in(name, height)
+        raised = float(arm.chain.translation[0][2])
+        rows += [
+            {
+                "arm": name,
+                "joint": joint.name,
+                "alpha_deg": np.degrees(float(joint.alpha)),
+                "a_m": joint.a,
+                "d_m": joint.d if k else raised,
+                "offset_deg": np.degrees(float(joint.offset)),
+                "lower_deg": np.degrees(arm.lower[k]),
+                "upper_deg": np.degrees(arm.upper[k]),
+                "speed_deg_s": np.degrees(arm.model.upperVelocityLimit[k]),
+            }
+            for k, joint in enumerate(robot_table(name).joints)
+        ]
+    return pd.DataFrame(rows)
+
+
+def _capsules(first: str) -> pd.DataFrame:
+    """Capsules of all arms among the choices as their files have them, that of one first."""
+    columns = [f"{end}_{axis}_m" for end in ("start", "end") for axis in "xyz"]
+    return pd.DataFrame(
+        [
+            {
+                "arm": name,
+                "joint": capsule.joint,
+                **dict(zip(columns, (*capsule.start, *capsule.end), strict=True)),
+                "radius_m": capsule.radius,
+            }
+            for name in dict.fromkeys((first, *alternatives("pan.arm", 0)))
+            for capsule in robot_table(name).capsules
+        ]
     )
 
 
@@ -111,6 +143,7 @@ def spatial_model(assumed: Assumed) -> Result:
     job = replace(nominal, arm=arm.name, link_radius_scale=assumed["link_radius_scale"])
     return Result(
         obtained={"bare": _bare(arm), "reach": reach},
+        table=_capsules(arm.name),
         caption=caption("fig10"),
         alt="A six-joint arm drawn as translucent capsules with its skeleton inside.",
         figure=lambda: capsule_figure(job.cell(), np.radians([0, 20, 10, 0, 60, 0]), WELDER),

@@ -12,7 +12,7 @@ from .....arms import Arm
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Residual, Result, Role
 from .....ledger.captions import captions
 from .....welding import closed_form
-from .....welding.ellipsoid import gram_matrices
+from .....welding.ellipsoid import gram_matrices, unit_ball_volume
 from .....welding.manipulability import tight_measure
 from .....welding.motion import flange_twist
 from ...document import SEED, stand_in
@@ -248,3 +248,22 @@ def _eigenvalues(matrix: np.ndarray) -> np.ndarray:
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+@checks(
+    "pan.claim_volume",
+    rules=[
+        Residual("spread", "ratio of volume and printed (11), relative range of", high=1e-6),
+    ],
+)
+def volume_and_measure(assumed: Assumed) -> Result:
+    """Volume by the semi-axes over the printed measure, at random configurations."""
+    arm, rng = stand_in(assumed["arm"]), np.random.default_rng(SEED)
+    J = arm.jacobian(arm.random_configurations(_SAMPLES, rng))
+    volumes = unit_ball_volume(6) * np.linalg.svd(J, compute_uv=False).prod(axis=1)
+    text = printed_text("pan.eq11").split("=")[-1]
+    ratio = volumes / [value(text, {"J": one}) for one in J]
+    return Result(
+        obtained={"spread": float(np.ptp(ratio) / ratio.mean()), "factor": float(ratio.mean())},
+        caption=caption("claim_volume"),
+    )

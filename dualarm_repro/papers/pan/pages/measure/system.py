@@ -98,6 +98,7 @@ def three_ellipsoids(assumed: Assumed) -> Result:
             "follows_rule",
             "the weights used in (16) are the ratios of the intersection to the ellipsoids",
             value=True,
+            role=Role.ADOPTS,
         )
     ],
 )

@@ -1,5 +1,5 @@
 """Page `pan/optimum`: the optimum, and where the printed one could come from."""
 
-from . import curves, printed_point, problem
+from . import curves, printed_point, problem, starts
 
-__all__ = ["curves", "printed_point", "problem"]
+__all__ = ["curves", "printed_point", "problem", "starts"]

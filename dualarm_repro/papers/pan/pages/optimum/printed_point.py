@@ -51,7 +51,7 @@ def printed_point(assumed: Assumed) -> Result:
     nearest = [(label, share.idxmax(), share.max()) for label, share in shares.items()]
     cell = problem.job.cell().unlimited()
     unlimited = Placement(cell, problem.measure.reading()).jobs([printed])
-    witnesses = fitted()
+    witnesses, climbs = fitted(), searched()
     return Result(
         obtained={
             "C": best.position.tolist() if best.fitness else None,
@@ -59,13 +59,16 @@ def printed_point(assumed: Assumed) -> Result:
             "loss": loss_at_print(problem),
             "fitness": best.fitness,
             "printed_point_is": status_name(solved(problem.job, tuple(printed))),
+            "readings_searched": len(climbs),
+            "readings_with_witness": len(witnesses),
         },
         table=table.reset_index(),
         witnesses=witnesses,
         caption=caption(
             "claim_optimum",
             **{"near": _NEAR, "far": _FAR, "most": near.to_numpy().max(), "nearest": nearest},
-            **{"witnesses": witnesses, "searches": len(FIT.load())},
+            **{"witnesses": witnesses, "climbs": climbs, "met": climbs[climbs["met"]]},
+            missed=climbs.loc[~climbs["met"], "distance"],
             sets=len(CONSISTENCY.load()) // len(READINGS),
         ),
         alt="Left: optima of all readings in two projections with the printed point and circles "
@@ -78,21 +81,29 @@ def printed_point(assumed: Assumed) -> Result:
 
 
 @memo()
-def fitted() -> list[dict[str, Any]]:
-    """Choices found by the stored search under which the printed point is the optimum."""
+def searched() -> pd.DataFrame:
+    """The stored search of every reading: nearest miss, what print lacks there, evaluations, met.
+
+    Nearest first; ``met`` where print is the optimum to the thresholds of the item.
+    """
     limits = REGISTRY.look("pan.claim_optimum", "thresholds").thresholds
     table = FIT.load()
-    met = (table["distance"] <= limits["inside_branch"].value) & (
-        table["loss"] <= limits["three_digits"].value
-    )
+    near = table["distance"] <= limits["inside_branch"].value
+    met = near & (table["loss"] <= limits["three_digits"].value)
+    return table.assign(met=met).sort_values(["met", "distance"], ascending=[False, True])
+
+
+def fitted() -> list[dict[str, Any]]:
+    """Choices found by the stored searches under which the printed point is the optimum."""
+    table = searched()
     return [
         {
-            "choice": f"pan_fit {row['start']}",
+            "choice": f"pan_fit {row['base_transform']}, {row['measure']}",
             "verdict": "holds",
             "values": json.loads(row["values"]),
             "judged": {"distance": float(row["distance"]), "loss": float(row["loss"])},
         }
-        for _, row in table[met].sort_values("distance").iterrows()
+        for _, row in table[table["met"]].iterrows()
     ]
 
 
@@ -101,9 +112,10 @@ def reading_table() -> pd.DataFrame:
     """Share of optima near the printed point for every objective (rows) and reading of the bases.
 
     Columns ``<reading> 0.1`` and ``<reading> 0.15`` are shares among the sets with a feasible
-    position, ``<reading> upper`` the upper end of the 95 % interval of the latter.
+    position, ``<reading> upper`` the upper end of the 95 % interval of the latter. ``<reading>
+    search`` is how near the directed search came [m]; NaN where none was made.
     """
-    table, printed, rows = CONSISTENCY.load(), printed_optimum(), {}
+    table, climbs, printed, rows = CONSISTENCY.load(), FIT.load(), printed_optimum(), {}
     for name in OBJECTIVES:
         row = {}
         for reading in READINGS:
@@ -111,6 +123,8 @@ def reading_table() -> pd.DataFrame:
             for radius in (_NEAR, _FAR):
                 row[f"{reading} {radius}"] = float((distance <= radius).mean())
             row[f"{reading} upper"] = Share.of((distance <= _FAR).sum(), len(distance)).high
+            own = climbs[(climbs["base_transform"] == reading) & (climbs["measure"] == name)]
+            row[f"{reading} search"] = float(own["distance"].min())
         rows[name] = row
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("objective")
 

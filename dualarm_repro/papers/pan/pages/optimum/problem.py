@@ -15,6 +15,7 @@ from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
 from .....view.landscape import slices_figure
 from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
+from .....welding.between import certified_separation
 from .....welding.motion import smallest_rank
 from ...document import printed_optimum
 from ...print_forms import holds, printed_text, value
@@ -92,7 +93,11 @@ def problem(assumed: Assumed) -> Result:
     "pan.claim_constraints",
     rules=[
         Is("count", "constraints tested", to="count"),
-        Bounded("separation", "smallest separation on a denser seam [m]", low=0.0),
+        Bounded(
+            "separation",
+            "separation certified on a denser seam and between its points [m]",
+            low=0.0,
+        ),
         Bounded("joint_margin", "smallest margin to a joint limit there [deg]", low=0.0),
         Bounded("rank", "smallest rank of a Jacobian there", low=6),
         Is("reached", "every robot reaches every point of it", value=True),
@@ -118,7 +123,7 @@ def constraints(assumed: Assumed) -> Result:
     return Result(
         obtained=obtained
         | {
-            "separation": float(nearest.iloc[0]),
+            "separation": certified_separation(cell, jobs).lower,
             "joint_margin": float(np.degrees(joint_margin(cell, jobs))),
             "rank": smallest_rank(cell, jobs),
             "separations": nearest.to_dict(),

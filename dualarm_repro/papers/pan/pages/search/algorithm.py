@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result
+from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Result, Role
 from .....ledger.captions import captions
 from .....view.diagrams import loop_chart
 from .....view.search_plots import history_figure
@@ -39,12 +39,12 @@ def declared_trace(**changes: Any) -> Trace:
 )
 def chart(assumed: Assumed) -> Result:
     """A run is watched; the chart is drawn from the list of acts that it runs."""
-    trace, adaptive = declared_trace(), declared_trace(ga_mutation="adaptive_feasible")
+    trace, shrinking = declared_trace(), declared_trace(ga_mutation="gaussian")
     return Result(
         obtained={
             "inputs": seen_inputs(trace),
             "steps": seen_steps(trace),
-            "stops": seen_stops([trace, adaptive]),
+            "stops": seen_stops([trace, shrinking]),
             "acts": [act.__name__ for act in (genetic.initialise, *genetic.LOOP)],
         },
         caption=caption("fig11", trace=trace),
@@ -86,9 +86,8 @@ def seen_stops(traces: Sequence[Trace]) -> list[str]:
     }
     ended = set()
     for trace in traces:
-        means = np.array([generation.mean for generation in trace.history])
-        end = first_stop(means, trace.settings.generations, trace.settings.stall)
-        if end == (len(means) - 1, trace.reason):
+        watched = [getattr(g, trace.settings.stall_of) for g in trace.history]
+        if first_stop(np.array(watched), trace.settings) == (len(watched) - 1, trace.reason):
             ended.add(trace.reason)
     return [name for reason, name in names.items() if reason in ended]
 
@@ -107,13 +106,12 @@ def seen_stops(traces: Sequence[Trace]) -> list[str]:
 )
 def two_stop_rules(assumed: Assumed) -> Result:
     """Where each stored run ended, and where the printed rules say it has to."""
-    settings = Genetic.of(REGISTRY.nominal("pan")).settings()
+    declared = Genetic.of(REGISTRY.nominal("pan")).settings()
     other, ends = 0, {}
     for variant, changes in VARIANTS.items():
-        runs = stored_runs(RUNS, variant)
-        limit, smallest = settings.generations, changes.get("stall", settings.stall)
-        for means, end in zip(runs.histories["mean"], runs.ends, strict=True):
-            other += first_stop(means, limit, smallest) != end
+        runs, settings = stored_runs(RUNS, variant), replace(declared, **changes)
+        for values, end in zip(runs.histories[settings.stall_of], runs.ends, strict=True):
+            other += first_stop(values, settings) != end
         ends[variant] = {
             why: [end[1] for end in runs.ends].count(why) for why in ("generations", "stall")
         }
@@ -133,8 +131,14 @@ def two_stop_rules(assumed: Assumed) -> Result:
             "infeasible_passed_on",
             "infeasible individuals that pass on while feasible ones could",
             high=0.0,
+            role=Role.ADOPTS,
         ),
-        Bounded("best_infeasible", "runs whose best individual is infeasible", high=0.0),
+        Bounded(
+            "best_infeasible",
+            "runs whose best individual is infeasible",
+            high=0.0,
+            role=Role.ADOPTS,
+        ),
     ],
 )
 def discarded(assumed: Assumed) -> Result:
