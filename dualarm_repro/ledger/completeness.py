@@ -45,6 +45,8 @@ def gaps(registry: Registry, inventory: dict[str, str]) -> list[str]:
             found.append(f"{item_id}: neither a checker nor a declared reason")
         if item_id in registry.checkers and item.pending is not None:
             found.append(f"{item_id}: has a checker, but is still declared pending")
+    for paper in registry.papers.values():
+        found += [f"{claim}: no entry of sentences names it" for claim in paper.unsaid_claims]
     for erratum_id, erratum in errata.items():
         if (erratum_id in registry.proofs) == (erratum.no_proof is not None):
             found.append(f"{erratum_id}: needs either a proof or the reason why there is none")

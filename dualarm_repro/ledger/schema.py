@@ -136,6 +136,23 @@ class Erratum(StrictModel):
     )
 
 
+class Sentence(StrictModel):
+    """A sentence of the source that can be true or false, and the items that judge it."""
+
+    place: Text = Field(description="section and, where it helps, paragraph or caption")
+    says: Text = Field(description="what it asserts, in our own words")
+    items: list[Text] = Field(default=[], description="full ids of the items that judge it")
+    unjudged: Text | None = Field(
+        default=None, description="why nothing in the document or computed from it can decide it"
+    )
+
+    @model_validator(mode="after")
+    def _judged_or_not(self) -> Sentence:
+        if bool(self.items) == (self.unjudged is not None):
+            raise ValueError("give either items or unjudged")
+        return self
+
+
 class Threshold(StrictModel):
     """A number that a rule compares with, and why it is that number."""
 
@@ -219,6 +236,11 @@ class PaperFile(StrictModel):
     assumptions: dict[Key, Assumption] = Field(default_factory=dict)
     errata: dict[Key, Erratum] = Field(default_factory=dict)
     items: dict[Key, Item]
+    sentences: list[Sentence] = Field(
+        default=[],
+        description="every sentence that can be true or false, in the order of the source; where "
+        "there are any, each claim is named by one",
+    )
 
     @model_validator(mode="after")
     def _references_exist(self) -> PaperFile:
@@ -238,7 +260,20 @@ class PaperFile(StrictModel):
             for name in erratum.affects:
                 if name not in known:
                     raise ValueError(f"errata.{key}.affects: no item named {name!r}")
+        for number, sentence in enumerate(self.sentences):
+            for name in sentence.items:
+                if name not in known:
+                    raise ValueError(f"sentences.{number}.items: no item named {name!r}")
         return self
+
+    @property
+    def unsaid_claims(self) -> list[str]:
+        """Full ids of the claims that no sentence names, once sentences are listed."""
+        if not self.sentences:
+            return []
+        named = {name for sentence in self.sentences for name in sentence.items}
+        claims = (f"{self.document.id}.{k}" for k, i in self.items.items() if i.kind == Kind.CLAIM)
+        return [claim for claim in claims if claim not in named]
 
 
 def load_paper(path: Path) -> PaperFile:

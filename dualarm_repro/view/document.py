@@ -5,13 +5,15 @@ from __future__ import annotations
 from html import escape
 
 from ..errors import UnknownNameError
-from ..ledger import Registry
+from ..ledger import Registry, record
 from ..ledger.cite import bibtex
 from ..ledger.record import erratum_record
 from ..ledger.schema import PaperFile
 from .card import erratum_html
+from .item_files import address
 from .item_table import item_table
 from .page import Page
+from .rendering import render
 
 
 def document_page(registry: Registry, paper: str) -> Page:
@@ -37,6 +39,23 @@ def items_page(registry: Registry, paper: str) -> Page:
     """All items of a document with verdict and reason, for a page one folder below the top."""
     ids = (f"{paper}.{key}" for key in _paper(registry, paper).items)
     return Page(item_table(registry, ids, root="../"))
+
+
+def sentences_page(registry: Registry, paper: str) -> Page:
+    """Every sentence of a document that can be true or false, with the items that judge it and
+    their verdicts."""
+    sentences = _paper(registry, paper).sentences
+    rows = [
+        {
+            "place": sentence.place,
+            "says": sentence.says,
+            "unjudged": sentence.unjudged,
+            "judged": [("../" + address(name), record(registry, name)) for name in sentence.items],
+        }
+        for sentence in sentences
+    ]
+    judged = sum(bool(sentence.items) for sentence in sentences)
+    return Page(render("sentences", rows=rows, judged=judged))
 
 
 def errata_page(registry: Registry, paper: str) -> Page:

@@ -32,6 +32,12 @@ def test_gap(tmp_path, old, new, gap):
     assert any(line.startswith(gap) for line in found), found
 
 
+def test_a_claim_that_no_sentence_names(tmp_path):
+    sentences = "sentences:\n  - {place: '1', says: s, items: [toy.claim_area]}\n"
+    toy = toy_registry(tmp_path, YAML + sentences)
+    assert gaps(toy, INVENTORY) == ["toy.claim_count: no entry of sentences names it"]
+
+
 def test_checker_and_proof_of_nothing(tmp_path):
     toy = toy_registry(tmp_path)
     toy.checkers["toy.ghost"] = toy.checkers["toy.claim_count"]

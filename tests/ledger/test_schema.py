@@ -47,6 +47,22 @@ def test_refused(tmp_path, old, new, field):
     assert "\n" not in message
 
 
+@pytest.mark.parametrize(
+    ("entry", "field"),
+    [
+        ("{place: '1', says: s, items: [toy.claim_size]}", "no item named 'toy.claim_size'"),
+        ("{place: '1', says: s}", "give either items or unjudged"),
+        ("{place: '1', says: s, items: [toy.claim_area], unjudged: u}", "give either"),
+        ("{place: '1', items: [toy.claim_area]}", "sentences.0.says"),
+    ],
+)
+def test_a_sentence_names_the_items_that_judge_it_or_says_why_none_can(tmp_path, entry, field):
+    path = tmp_path / "toy.yaml"
+    path.write_text(f"{YAML}sentences:\n  - {entry}\n")
+    with pytest.raises(DataFileError, match=field):
+        load_paper(path)
+
+
 def test_missing_file_and_wrong_name(tmp_path):
     with pytest.raises(DataFileError, match="a readable YAML file"):
         load_paper(tmp_path / "none.yaml")
