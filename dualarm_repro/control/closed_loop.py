@@ -25,6 +25,7 @@ class Ending(StrEnum):
     NO_SOLUTION = "no joint velocity satisfies all constraints"
     UNCERTIFIED = "the solution failed its certificate"
     DIVERGED = "the network diverged"
+    BLOCKED = "the path is blocked"
 
 
 class Run(NamedTuple):
@@ -54,13 +55,19 @@ def observe(buffers, position, error):
 
 
 @kernel
-def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
+def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, smoothing, noise):
     """q' = x(q, t) by explicit Euler steps, x the exact minimiser.
+
+    With a smoothing w it minimises 1/2 |x - target|^2 + w/2 |x - x_before|^2, which is the same
+    problem with the target (target + w x_before) / (1 + w).
 
     Parameters
     ----------
     slack_weight : float
-        Weight of the slack on the task where the problem has no solution; 0: stop there.
+        Weight of the slack on the task where the problem has no solution, against the whole of the
+        rest of the objective; 0: stop there.
+    smoothing : float
+        w, which keeps an answer near the one before.
     noise : (steps, P) or (0, 0)
         Error of the distance readings [m].
 
@@ -85,6 +92,8 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
         if step == steps:
             break
         program = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
+        if smoothing > 0.0 and step > 0:
+            program.target[:] = (program.target + smoothing * x[step - 1]) / (1.0 + smoothing)
         found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)

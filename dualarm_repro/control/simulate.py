@@ -27,6 +27,8 @@ def simulate(
     dt: float = 1e-3,
     cycles: int = 1,
     slack: bool = False,
+    slack_weight: float = SLACK_WEIGHT,
+    smoothing: float = 0.0,
     noise: np.ndarray = UNDISTURBED,
 ) -> Motion:
     """Follow the circles from ``q0`` with the exact minimiser of every step.
@@ -39,6 +41,11 @@ def simulate(
     slack : bool
         Let the task yield where it excludes the inequalities; else the run stops there, and
         ``Motion.stopped`` says why.
+    slack_weight : float
+        Of the slack against the rest of the objective: a large one gives up as little of the task
+        as can be at every instant and chatters, a small one gives up more and is calm.
+    smoothing : float
+        Weight w of 1/2 w |x - x_before|^2, which keeps a joint velocity near the one before.
     noise : (N, P)
         Error of the distance readings [m].
 
@@ -48,9 +55,9 @@ def simulate(
         A bad configuration, step, number of cycles or number of circles.
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
-    weight = SLACK_WEIGHT if slack else 0.0
-    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise
-    return truncated(dt, *run_exact(*arguments))
+    weight = slack_weight if slack else 0.0
+    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing, noise
+    return truncated(system, dt, *run_exact(*arguments))
 
 
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
@@ -81,9 +88,9 @@ def checked_run(
     return system.configuration(q0), settings.numbers(), steps
 
 
-def truncated(dt: float, status: int, taken: int, run: Run) -> Motion:
+def truncated(system: ArmSystem, dt: float, status: int, taken: int, run: Run) -> Motion:
     """Motion of the steps that were taken."""
     reason = None if status == DONE else f"{list(Ending)[status]} at t = {taken * dt:.3f} s"
     looks = run.q[: taken + 1], run.x[:taken], run.error[: taken + 1], run.distance[: taken + 1]
     steps = run.rows[:taken], run.slack[:taken]
-    return Motion(dt, dt * np.arange(taken + 1), *looks, *steps, reason)
+    return Motion(dt, dt * np.arange(taken + 1), *looks, *steps, system.limits, reason)

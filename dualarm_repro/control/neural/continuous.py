@@ -94,5 +94,6 @@ def integrate_network(
         distance[k] = observe(buffers, position, error[k])
     stopped = None if found.success else f"{found.message} at t = {found.t[-1]:.3f} s"
     counts, given = np.array(rows[:-1]), np.zeros(len(q) - 1)
-    motion = Motion(sample, found.t, q, x[:-1], error, distance, counts, given, stopped)
+    looks = found.t, q, x[:-1], error, distance, counts, given
+    motion = Motion(sample, *looks, system.limits, stopped)
     return motion, int(found.nfev)

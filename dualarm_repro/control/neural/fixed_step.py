@@ -87,7 +87,7 @@ def simulate_network(
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
     arguments = system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt
-    return truncated(dt, *run_network(*arguments, noise, disturbance))
+    return truncated(system, dt, *run_network(*arguments, noise, disturbance))
 
 
 def divergence_time(gamma: float, dt: float) -> float:

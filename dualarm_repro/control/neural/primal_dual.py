@@ -152,4 +152,4 @@ def simulate_primal_dual(
     if iterations < 1:
         raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
     arguments = system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt
-    return truncated(dt, *run_primal_dual(*arguments, noise, disturbance))
+    return truncated(system, dt, *run_primal_dual(*arguments, noise, disturbance))

@@ -9,7 +9,6 @@ import numpy as np
 
 from .....control.controller import VelocityController
 from .....control.frozen import FrozenScenario
-from .....control.joint_ranges import angle_excess, speed_excess
 from .....control.motion import Motion
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
@@ -48,9 +47,9 @@ def respects_limits(assumed: Assumed) -> Result:
     """Angle limits on a task that drives joints to them, speed limits on the same task run fast."""
     settings = controller_settings(assumed, *LIMITS)
     slow, fast = frozen("limits"), frozen("limits", duration=assumed["fast_duration"])
-    angles = [angle_excess(slow.system, m.q) for m in _three(slow, settings, COARSE_STEP)]
+    angles = [m.angle_excess for m in _three(slow, settings, COARSE_STEP)]
     motions = _three(fast, settings, CONTROL_STEP)
-    speeds = [speed_excess(fast.system, m.x) for m in motions]
+    speeds = [m.speed_excess for m in motions]
     return Result(
         obtained={
             **dict(zip(("naive_excess", "angle_excess", "network_excess"), angles, strict=True)),
@@ -141,8 +140,8 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
         obtained={
             "naive_distance": naive[0].smallest_distance,
             "distance": exact[0].smallest_distance,
-            "naive_excess": angle_excess(far.system, naive[1].q),
-            "excess": angle_excess(far.system, exact[1].q),
+            "naive_excess": naive[1].angle_excess,
+            "excess": exact[1].angle_excess,
             "period_share": period,
             **{f"{name}_operations": count for name, count in steps.items()},
             "random_tasks_beyond_limits": leave,
