@@ -9,10 +9,11 @@ from ..errors import InputError
 from .circle import Circles
 from .closed_loop import DONE, Ending, Run, run_exact
 from .motion import Motion
+from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings
 from .system import ArmSystem
 
-#: Noise and disturbance of a run without any.
+#: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
@@ -29,7 +30,7 @@ def simulate(
     slack: bool = False,
     slack_weight: float = SLACK_WEIGHT,
     smoothing: float = 0.0,
-    noise: np.ndarray = UNDISTURBED,
+    readings: Readings | None = None,
 ) -> Motion:
     """Follow the circles from ``q0`` with the exact minimiser of every step.
 
@@ -46,8 +47,8 @@ def simulate(
         as can be at every instant and chatters, a small one gives up more and is calm.
     smoothing : float
         Weight w of 1/2 w |x - x_before|^2, which keeps a joint velocity near the one before.
-    noise : (N, P)
-        Error of the distance readings [m].
+    readings : Readings, optional
+        Errors of what the controller reads; default none.
 
     Raises
     ------
@@ -56,8 +57,9 @@ def simulate(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     weight = slack_weight if slack else 0.0
-    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing, noise
-    return truncated(system, dt, *run_exact(*arguments))
+    readings = readings or Readings.of(system)
+    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing
+    return truncated(system, dt, *run_exact(*arguments, readings))
 
 
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
