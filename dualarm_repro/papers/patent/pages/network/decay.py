@@ -17,6 +17,7 @@ from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.optimality import optimality
 from .....control.neural.penalised import code_error, state_with_error
 from .....control.settings import ControllerSettings
+from .....control.trajectory import trajectory
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
@@ -262,6 +263,7 @@ def integration(assumed: Assumed) -> Result:
             "distance": motion.smallest_distance,
         },
         measured={"evaluations": evaluations, "tip_error": motion.largest_error},
+        table=trajectory(scenario.system, scenario.circles, motion),
         caption=caption(
             "eq_integration",
             integrator=assumed["integrator"],
