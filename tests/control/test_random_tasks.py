@@ -9,7 +9,15 @@ from dualarm_repro import load_arm
 from dualarm_repro.control import task_search
 from dualarm_repro.control.frozen import FrozenScenario
 from dualarm_repro.control.joint_ranges import random_configuration
-from dualarm_repro.control.random_tasks import CircleTask, admissible, draw_task, naive_motion
+from dualarm_repro.control.random_tasks import (
+    CircleTask,
+    admissible,
+    draw_task,
+    lowest,
+    naive_motion,
+    own_clearance,
+    stands_clear,
+)
 from dualarm_repro.control.scenario import load_scenario
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.task_search import CROSSING, TO_LIMITS, TOO_CLOSE, score, search_task
@@ -47,6 +55,26 @@ def test_a_naive_motion_counts_if_it_follows_and_starts_apart(crossing):
     assert not admissible(naive, settings.changed(outer=naive.distance[0] + 0.01))
     assert not admissible(replace(naive, error=naive.error + 2e-3), settings)
     assert not admissible(replace(naive, stopped="failed"), settings)
+
+
+def test_a_task_stands_clear_of_itself_and_of_the_floor(crossing):
+    system, task = crossing.system, frozen_task("crossing_xarm7")
+    assert stands_clear(system, task)
+    assert lowest(system, task.q0) > 0.0
+    arrays = system.arrays
+    folded = next(
+        q
+        for q in np.random.default_rng(1).uniform(arrays.lower, arrays.upper, (200, system.nq))
+        if own_clearance(system, q) <= 0.0
+    )
+    assert not stands_clear(system, replace(task, q0=folded))
+    sunk = next(
+        q
+        for q in np.random.default_rng(2).uniform(arrays.lower, arrays.upper, (200, system.nq))
+        if lowest(system, q) < 0.0
+    )
+    assert not stands_clear(system, replace(task, q0=sunk))
+    assert not stands_clear(system, replace(task, radius=5.0))
 
 
 def test_scores_are_those_of_the_wanted_task(crossing):

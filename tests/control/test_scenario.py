@@ -75,7 +75,9 @@ def test_motion_measures():
     t = 0.1 * np.arange(21)
     q = np.column_stack([np.sin(2 * np.pi * t), t])
     x = np.diff(q, axis=0) / 0.1
-    motion = Motion(0.1, t, q, x, np.zeros((21, 2)), np.ones(21), np.zeros(20), np.zeros(20), LIMITS)
+    motion = Motion(
+        0.1, t, q, x, np.zeros((21, 2)), np.ones(21), np.zeros(20), np.zeros(20), LIMITS
+    )
     assert motion.completed
     assert motion.drift(1.0) == pytest.approx([1.0, 2.0])
     assert motion.peak_speed == pytest.approx(np.abs(x).max())
