@@ -48,8 +48,8 @@ def proof_steps(p: QuadraticProgram, network: NetworkSettings, y: np.ndarray) ->
 
 
 def odd_and_increasing(form: Activation, reach: float = 3.0) -> tuple[float, float]:
-    """Step 1 on a grid over [-reach, reach]: largest |Psi(u) + Psi(-u)|, share of the largest value,
-    and smallest increase."""
+    """Step 1 on a grid over [-reach, reach]: largest |Psi(u) + Psi(-u)| by the largest
+    |Psi|, and smallest increase."""
     grid = np.linspace(-reach, reach, 1201)
     values = np.array([activation(code(form), u) for u in grid])
     odd = np.abs(values + values[::-1]).max() / np.abs(values).max()
