@@ -153,11 +153,11 @@ def test_every_sentence_of_the_text_has_its_place():
 def test_no_solver_completes_a_task_whose_bounds_it_breaks():
     table = TASKS.load()
     table = table[table["collides"].eq(True)]
-    for name in ("pair_normal", "slack", "calm", "network", "guarded"):
-        done = table[table[f"{name}_completed"].astype(bool)]
-        assert (done[f"{name}_distance"] > 0.0).all()
-        assert (done[f"{name}_beyond_speed"] <= 1e-9).all()
-        assert (done[f"{name}_beyond_angle"] <= 1e-9).all()
+    for solver in ("pair_normal", "slack", "calm", "network", "guarded"):
+        done = table[table[f"{solver}_completed"].astype(bool)]
+        assert (done[f"{solver}_distance"] > 0.0).all()
+        assert (done[f"{solver}_beyond_speed"] <= 1e-9).all()
+        assert (done[f"{solver}_beyond_angle"] <= 1e-9).all()
     ended = table["network_finished"].astype(bool)
     assert (ended & ~table["network_completed"].astype(bool)).any()
     guarded = table[["guarded_beyond_speed", "guarded_beyond_angle"]].max(axis=1)
