@@ -95,6 +95,7 @@ def completes(assumed: Assumed) -> Result:
     failed = {
         "limits_alone": len(every) - len(table),
         "avoidance_alone": int((~_alone(every)).sum()),
+        "by_either": int((~_alone(every)).sum() - (~_alone(table)).sum()),
         "only_together": int((_alone(table) & ~_accurate(table, "pair_normal", np.inf)).sum()),
     }
     return Result(
