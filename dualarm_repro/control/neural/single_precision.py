@@ -69,5 +69,5 @@ def simulate_in_single_precision(
         run.rows[step], x[step] = len(p.h), state[:n]
         q[step + 1] = q[step] + dt * state[:n]
         M = state_matrix(p, network, state).astype(np.float32)
-        y = y + np.float32(dt) * np.linalg.solve(M, right)
+        y[:] = y + np.float32(dt) * np.linalg.solve(M, right)
     return truncated(system, dt, DONE, steps, run)

@@ -103,7 +103,7 @@ def compute(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]
     limited = simulate(*parts, ControllerSettings(avoid=False), dt=COARSE_STEP)
     alone = simulate(*parts, ControllerSettings(limits=False), dt=COARSE_STEP)
     slack = simulate(*parts, settings, dt=COARSE_STEP, slack=True)
-    calm = simulate(*parts, settings, dt=COARSE_STEP, slack=True, **CALM)
+    calm = simulate(*parts, settings, dt=COARSE_STEP, slack=True, **CALM)  # type: ignore[arg-type]
     network = simulate_network(*parts, settings, NetworkSettings(), dt=CONTROL_STEP)
     guarded, shares = simulate_guarded(*parts, settings, NetworkSettings(), dt=CONTROL_STEP)
     named = {"limits": limited, "alone": alone, "slack": slack, "calm": calm}

@@ -54,7 +54,12 @@ def in_real_time(assumed: Assumed) -> Result:
             "completed": motion.completed,
         },
         table=table,
-        caption=caption("claim_real_time", assumed=assumed, dt=dt),
+        caption=caption(
+            "claim_real_time",
+            **{"assumed": assumed, "dt": dt, "shortest": STEPS[0], "longest": STEPS[-1]},
+            worst=float(table["tip error [m]"].max()),
+            nearest=float(table["distance [m]"].min()),
+        ),
         alt="Largest tip error over the step, in proportion to it, alike for three gains.",
         figure=lambda: rate_figure(table, assumed["accuracy_bound"]),
     )

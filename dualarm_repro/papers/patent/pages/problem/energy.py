@@ -89,7 +89,8 @@ def redundant_motion(assumed: Assumed) -> Result:
     scenario, settings = frozen("crossing"), ControllerSettings()
     motion = run(scenario, settings, COARSE_STEP)
     controller = VelocityController(scenario.system, settings, home=scenario.q0)
-    free, pressed = [], []
+    free: list[float] = []
+    pressed: list[float] = []
     for k in range(0, len(motion.x), 20):
         q = motion.q[k]
         p = controller.problem(q, *scenario.circles.at(motion.time[k]))
