@@ -15,6 +15,7 @@ from .circle import follow
 from .least_distance import SOLVED, least_distance
 from .parts import with_task
 from .problem import CERTIFIED
+from .readings import angles_at, noise_at
 from .relaxed import least_distance_with_slack
 
 
@@ -25,6 +26,7 @@ class Ending(StrEnum):
     NO_SOLUTION = "no joint velocity satisfies all constraints"
     UNCERTIFIED = "the solution failed its certificate"
     DIVERGED = "the network diverged"
+    BLOCKED = "the path is blocked"
 
 
 class Run(NamedTuple):
@@ -54,15 +56,20 @@ def observe(buffers, position, error):
 
 
 @kernel
-def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
+def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, smoothing, readings):
     """q' = x(q, t) by explicit Euler steps, x the exact minimiser.
+
+    With a smoothing w it minimises 1/2 |x - target|^2 + w/2 |x - x_before|^2, which is the same
+    problem with the target (target + w x_before) / (1 + w).
 
     Parameters
     ----------
     slack_weight : float
-        Weight of the slack on the task where the problem has no solution; 0: stop there.
-    noise : (steps, P) or (0, 0)
-        Error of the distance readings [m].
+        Weight of the slack on the task where the problem has no solution, against the whole of the
+        rest of the objective; 0: stop there.
+    smoothing : float
+        w, which keeps an answer near the one before.
+    readings : Readings
 
     Returns
     -------
@@ -78,13 +85,16 @@ def run_exact(arrays, numbers, circle, q0, steps, dt, slack_weight, noise):
     q[0] = q0
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     for step in range(steps + 1):
-        reading = noise[step] if step < len(noise) else np.empty(0)
-        count = sense(arrays, numbers, q[step], reading, buffers)
+        noise, at = noise_at(readings, step), angles_at(readings, q, step)
+        sense(arrays, numbers, q[step], noise, buffers)
         follow(circle, step * dt, position, velocity)
         distance[step] = observe(buffers, position, error[step])
         if step == steps:
             break
-        program = state(arrays, numbers, q[step], q0, position, velocity, count, buffers)
+        count = sense(arrays, numbers, at, noise, buffers)
+        program = state(arrays, numbers, at, q0, position, velocity, count, buffers)
+        if smoothing > 0.0 and step > 0:
+            program.target[:] = (program.target + smoothing * x[step - 1]) / (1.0 + smoothing)
         found, v, y, z, w = least_distance(program)
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)

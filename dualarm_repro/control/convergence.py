@@ -1,4 +1,9 @@
-"""How near the networks come to the exact minimiser, step by step from a zero state."""
+"""How near the networks come to the exact minimiser from a zero state, step by step and in time.
+
+In time: with the gain g(t) both are functions of s = int g dt alone, dy/ds = -M^-1 F for the
+network with linear activation and du/ds = -(I + M^T) e for the primal-dual one; t = s / gamma for a
+constant gain and t = ln(1 + s / gamma) for g = gamma e^t.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +14,13 @@ import numpy as np
 from .contest import newton_all
 from .neural.network import network_rate
 from .neural.network_settings import NetworkSettings
-from .neural.primal_dual import iterate
+from .neural.primal_dual import flow, iterate
 from .problem import QuadraticProgram
 from .recorded import stacked
 from .solvers import solve
+
+_STEP_NETWORK = 0.05  # Euler steps of s; the flow decays with the rate 1
+_STEP_PRIMAL_DUAL = 0.02  # and that of the other with rates up to the square of the largest row
 
 
 def first_within(errors: np.ndarray, threshold: float) -> int | None:
@@ -40,6 +48,37 @@ def primal_dual_errors(p: QuadraticProgram, counts: Iterable[int]) -> np.ndarray
         done = int(count)
         errors.append(float(np.abs(u[: p.size] - exact).max()))
     return np.array(errors)
+
+
+def network_flow(p: QuadraticProgram, network: NetworkSettings, grid: np.ndarray) -> np.ndarray:
+    """|x - x*|_inf of the network in continuous time at the rising values s of a grid [rad/s]."""
+    size, exact = p.size + len(p.b), solve(p).x
+    y, rate, still, s, errors = np.zeros(size), np.empty(size), np.zeros(size), 0.0, []
+    for end in grid:
+        for step in _steps(end - s, _STEP_NETWORK):
+            network_rate(network.numbers(), 1.0, still, p.parts, y, rate)
+            y += step * rate
+        s = end
+        errors.append(float(np.abs(y[: p.size] - exact).max()))
+    return np.array(errors)
+
+
+def primal_dual_flow(p: QuadraticProgram, grid: np.ndarray) -> np.ndarray:
+    """The same of the primal-dual network [rad/s]."""
+    exact, u, s, errors = solve(p).x, np.zeros(p.size + len(p.b) + len(p.h)), 0.0, []
+    for end in grid:
+        steps = _steps(end - s, _STEP_PRIMAL_DUAL)
+        if len(steps):
+            flow(p.parts, u, steps[0], len(steps))
+        s = end
+        errors.append(float(np.abs(u[: p.size] - exact).max()))
+    return np.array(errors)
+
+
+def _steps(length: float, longest: float) -> np.ndarray:
+    """Equal steps, none longer than allowed, that make up a length."""
+    count = int(np.ceil(length / longest - 1e-9))
+    return np.full(count, length / max(count, 1))
 
 
 def steps_in_a_row(

@@ -3,13 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+
+#: Tip error up to which a path counts as followed [m]; ten times the repeatability of small arms.
+FOLLOWED = 1e-3
+#: Excess over a limit that is left to rounding [rad], [rad/s].
+_ROUNDING = 1e-9
+
+
+class JointLimits(NamedTuple):
+    """Joint ranges [rad] and largest joint speeds [rad/s], each (n,)."""
+
+    lower: np.ndarray
+    upper: np.ndarray
+    speed: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Samples of a run at a fixed rate.
+
+    A run that reached its end is not completed if on its way a joint left its range or exceeded its
+    speed, links touched, or a tip left its path: no solver is asked whether it thinks so.
 
     Attributes
     ----------
@@ -27,6 +44,7 @@ class Motion:
         Rows of the avoidance.
     slack : (N,)
         What the task gave up [m/s].
+    limits : JointLimits
     stopped : str or None
         Why the run ended before its time.
     """
@@ -39,12 +57,39 @@ class Motion:
     distance: np.ndarray
     rows: np.ndarray
     slack: np.ndarray
+    limits: JointLimits
     stopped: str | None = None
 
     @property
-    def completed(self) -> bool:
-        """Whether the run reached its end."""
+    def finished(self) -> bool:
+        """Whether the run reached its end, whatever happened on the way."""
         return self.stopped is None
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """Which bounds the motion broke: of "angle", "speed", "contact" and "path"."""
+        found = {
+            "angle": self.angle_excess > _ROUNDING,
+            "speed": self.speed_excess > _ROUNDING,
+            "contact": self.smallest_distance <= 0.0,
+            "path": self.largest_error > FOLLOWED,
+        }
+        return tuple(name for name, beyond in found.items() if beyond)
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run reached its end and broke no bound."""
+        return self.finished and not self.broken
+
+    @property
+    def angle_excess(self) -> float:
+        """Largest excess of a joint angle over its range, negative inside [rad]."""
+        return float(max((self.q - self.limits.upper).max(), (self.limits.lower - self.q).max()))
+
+    @property
+    def speed_excess(self) -> float:
+        """Largest excess of a joint speed over its limit, negative inside [rad/s]."""
+        return float((np.abs(self.x) - self.limits.speed).max(initial=-np.inf))
 
     @property
     def smallest_distance(self) -> float:
@@ -65,6 +110,17 @@ class Motion:
     def peak_acceleration(self) -> float:
         """max |dx_i / dt| by differences [rad/s^2]."""
         return float(np.abs(np.diff(self.x, axis=0)).max(initial=0.0) / self.dt)
+
+    @property
+    def rms_acceleration(self) -> float:
+        """Root mean square of dx_i / dt by differences [rad/s^2]; high where a motion chatters."""
+        changes = np.diff(self.x, axis=0)
+        return float(np.sqrt((changes**2).mean())) / self.dt if len(changes) else 0.0
+
+    @property
+    def mean_speed(self) -> float:
+        """Mean of |x_i| over joints and time [rad/s]."""
+        return float(np.abs(self.x).mean()) if len(self.x) else 0.0
 
     @property
     def energy(self) -> float:

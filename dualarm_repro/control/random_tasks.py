@@ -7,16 +7,18 @@ from typing import Any
 
 import numpy as np
 
+from ..scene.clearance import distances
+from ..scene.posing import cores_in, link_frames, links_of
+from ..scene.scene import Scene
 from .circle import Circles
-from .motion import Motion
+from .motion import FOLLOWED, Motion
 from .settings import ControllerSettings
 from .simulate import pseudo_inverse, simulate
 from .system import ArmSystem
 
-#: A path is within reach if the pseudo-inverse follows it to this [m].
-WITHIN_REACH = 1e-3
 #: Step of the motion that screens a task [s].
 SCREEN_STEP = 0.01
+_APART = 3  # joints between links of one arm that are watched
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +56,40 @@ def draw_task(
     return CircleTask(q0, normals, angles, float(rng.uniform(*radii)))
 
 
+def stands_clear(system: ArmSystem, task: CircleTask) -> bool:
+    """Whether a task can be set on a floor z = 0: at its start no links of one arm touch and all
+    that move are above the floor, and so are the paths of the tips."""
+    circles = task.circles(system)
+    drop = np.hypot(circles.u[:, 2], circles.v[:, 2])
+    above = (circles.centre[:, 2] - drop > 0.0).all() and lowest(system, task.q0) > 0.0
+    return bool(above and own_clearance(system, task.q0) > 0.0)
+
+
+def own_clearance(system: ArmSystem, q: np.ndarray) -> float:
+    """Smallest distance of two links of one arm, at least three joints apart [m].
+
+    Capsules of links that are nearer along the arm overlap where their joints bend.
+    """
+    scene = Scene(system.arms, exempt=system.exempt, self_collision=True)
+    watched = [
+        a.owner == b.owner and abs((a.joint or 0) - (b.joint or 0)) >= _APART
+        for a, b in scene.pairs.bodies
+    ]
+    return float(distances(scene, q)[np.array(watched)].min(initial=np.inf))
+
+
+def lowest(system: ArmSystem, q: np.ndarray) -> float:
+    """Height of the lowest point of all links but base and first, which never sink [m]."""
+    heights = []
+    for placed, part in zip(system.arms, np.split(q, system.arrays.start[1:-1]), strict=True):
+        links, base = links_of(placed.arm), placed.placement.homogeneous[:3]
+        frames = link_frames(placed.arm.chain, base, part[np.newaxis])
+        cores = cores_in(frames, links.joint, links.local)[0]
+        low = cores[..., 2].min(axis=-1) - links.radius
+        heights.append(low[links.joint > 1].min(initial=np.inf))
+    return float(min(heights))
+
+
 def naive_motion(system: ArmSystem, task: CircleTask, settings: ControllerSettings) -> Motion:
     """One turn by the pseudo-inverse, in the coarse steps of a screening."""
     circles = task.circles(system)
@@ -62,5 +98,5 @@ def naive_motion(system: ArmSystem, task: CircleTask, settings: ControllerSettin
 
 def admissible(naive: Motion, settings: ControllerSettings) -> bool:
     """Whether a naive motion stays on its path and starts outside the outer range."""
-    reached = naive.completed and naive.largest_error < WITHIN_REACH
+    reached = naive.finished and naive.largest_error < FOLLOWED
     return bool(reached and naive.distance[0] > settings.outer)

@@ -9,10 +9,11 @@ from ..errors import InputError
 from .circle import Circles
 from .closed_loop import DONE, Ending, Run, run_exact
 from .motion import Motion
+from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings
 from .system import ArmSystem
 
-#: Noise and disturbance of a run without any.
+#: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
@@ -27,7 +28,9 @@ def simulate(
     dt: float = 1e-3,
     cycles: int = 1,
     slack: bool = False,
-    noise: np.ndarray = UNDISTURBED,
+    slack_weight: float = SLACK_WEIGHT,
+    smoothing: float = 0.0,
+    readings: Readings | None = None,
 ) -> Motion:
     """Follow the circles from ``q0`` with the exact minimiser of every step.
 
@@ -39,8 +42,13 @@ def simulate(
     slack : bool
         Let the task yield where it excludes the inequalities; else the run stops there, and
         ``Motion.stopped`` says why.
-    noise : (N, P)
-        Error of the distance readings [m].
+    slack_weight : float
+        Of the slack against the rest of the objective: a large one gives up as little of the task
+        as can be at every instant and chatters, a small one gives up more and is calm.
+    smoothing : float
+        Weight w of 1/2 w |x - x_before|^2, which keeps a joint velocity near the one before.
+    readings : Readings, optional
+        Errors of what the controller reads; default none.
 
     Raises
     ------
@@ -48,9 +56,10 @@ def simulate(
         A bad configuration, step, number of cycles or number of circles.
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
-    weight = SLACK_WEIGHT if slack else 0.0
-    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, noise
-    return truncated(dt, *run_exact(*arguments))
+    weight = slack_weight if slack else 0.0
+    readings = readings or Readings.of(system)
+    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing
+    return truncated(system, dt, *run_exact(*arguments, readings))
 
 
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
@@ -81,9 +90,9 @@ def checked_run(
     return system.configuration(q0), settings.numbers(), steps
 
 
-def truncated(dt: float, status: int, taken: int, run: Run) -> Motion:
+def truncated(system: ArmSystem, dt: float, status: int, taken: int, run: Run) -> Motion:
     """Motion of the steps that were taken."""
     reason = None if status == DONE else f"{list(Ending)[status]} at t = {taken * dt:.3f} s"
     looks = run.q[: taken + 1], run.x[:taken], run.error[: taken + 1], run.distance[: taken + 1]
     steps = run.rows[:taken], run.slack[:taken]
-    return Motion(dt, dt * np.arange(taken + 1), *looks, *steps, reason)
+    return Motion(dt, dt * np.arange(taken + 1), *looks, *steps, system.limits, reason)

@@ -14,6 +14,7 @@ from ..errors import ConfigurationError, InputError
 from ..scene.bodies import PlacedArm
 from ..scene.posing import links_of
 from ..scene.scene import Scene
+from .motion import JointLimits
 
 
 class SystemArrays(NamedTuple):
@@ -108,6 +109,11 @@ class ArmSystem:
             pairs,
             *(np.concatenate([getattr(arm, name) for arm in arms]) for name in _LIMITS),
         )
+
+    @property
+    def limits(self) -> JointLimits:
+        """Joint ranges and speeds of all arms."""
+        return JointLimits(self.arrays.lower, self.arrays.upper, self.arrays.speed)
 
     @property
     def nq(self) -> int:

@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .joint_ranges import angle_excess
 from .motion import Motion
-from .random_tasks import WITHIN_REACH, CircleTask, admissible, draw_task, naive_motion
+from .random_tasks import FOLLOWED, CircleTask, admissible, draw_task, naive_motion
 from .settings import ControllerSettings
 from .simulate import simulate
 from .system import ArmSystem
@@ -90,11 +89,11 @@ def _collides(system: ArmSystem, naive: Motion, settings: ControllerSettings) ->
 
 
 def _leaves(system: ArmSystem, naive: Motion, settings: ControllerSettings) -> bool:
-    return admissible(naive, settings) and angle_excess(system, naive.q) >= FAR
+    return admissible(naive, settings) and naive.angle_excess >= FAR
 
 
 def _inside(system: ArmSystem, naive: Motion, settings: ControllerSettings) -> bool:
-    return 0.0 < naive.distance[0] < 0.5 * settings.inner and naive.largest_error <= WITHIN_REACH
+    return 0.0 < naive.distance[0] < 0.5 * settings.inner and naive.largest_error <= FOLLOWED
 
 
 CROSSING = Wanted(

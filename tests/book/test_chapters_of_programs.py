@@ -27,19 +27,20 @@ from dualarm_repro.welding import GeneticSettings, Status, evolve
 METHODS = {
     "patent/problem": """
         frozen traced_steps self_motion central_differences run approach_bound cp.Variable
-        cp.Minimize cp.Problem least_velocity solve
+        cp.Minimize cp.Problem least_velocity solve effort
     """,
     "patent/network": """
         solve penalty rest_point L.diff sp.BlockMatrix code_error state_matrix np.linalg.solve
-        state_rate simulate_network integrate_network
+        state_rate simulate_network integrate_network proof_steps odd_and_increasing decay
     """,
     "patent/avoidance": """
-        run controller.problem draw_task naive_motion simulate simulate_network angle_excess
-        pseudo_inverse_cost
+        run controller.problem draw_task stands_clear naive_motion simulate simulate_network
+        simulate_guarded pseudo_inverse_cost
     """,
     "patent/contest": """
-        exact_cost steps_in_a_row network_errors primal_dual_errors simulate_network
-        simulate_primal_dual integrate_network
+        exact_cost steps_in_a_row network_errors primal_dual_errors network_flow primal_dual_flow
+        simulate_network simulate_primal_dual integrate_network simulate_in_single_precision
+        low_pass
     """,
     "pan/cell": """
         arm.link_transforms base_poses saddle_seam flat_rotations Workpiece assemble Placement
@@ -125,7 +126,7 @@ def test_the_network_of_the_page_is_that_of_the_library():
 
 def test_the_draws_of_the_page_are_those_of_the_study():
     sample = run_cells("patent/avoidance").names["sample"]
-    assert len(sample) > 3
+    assert len(sample) >= 3
     for solver in ("QP", "network"):
         assert np.allclose(sample[solver], sample[f"{solver}, stored"], rtol=1e-4)
 

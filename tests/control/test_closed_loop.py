@@ -93,7 +93,8 @@ def test_unreachable_paths_stop_or_yield(crossing):
     yielding = simulate(
         crossing.system, far, crossing.q0, ControllerSettings(), dt=5e-3, slack=True
     )
-    assert yielding.completed
+    assert yielding.finished
+    assert yielding.broken == ("path",)
     assert yielding.slack.max() > 0.1
     assert yielding.smallest_distance > 0.0
 

@@ -6,7 +6,9 @@ import pytest
 from dualarm_repro.control.convergence import (
     first_within,
     network_errors,
+    network_flow,
     primal_dual_errors,
+    primal_dual_flow,
     steps_in_a_row,
 )
 from dualarm_repro.control.neural.network_settings import NetworkSettings
@@ -54,3 +56,13 @@ def test_in_a_row_the_least_number_of_steps_is_found(p):
     few, error = steps_in_a_row(problems, NETWORK, threshold, steps - 1)
     assert few < steps
     assert error > threshold
+
+
+def test_in_continuous_time_the_network_decays_with_one_rate_and_both_arrive(p):
+    errors, exact = network_flow(p, NETWORK, np.array([0.0, 1.0, 30.0])), solve(p).x
+    bias = np.abs(rest_point(p, NETWORK)[: p.size] - exact).max()
+    assert errors[0] == np.abs(exact).max()
+    assert errors[2] == pytest.approx(bias, rel=1e-3)
+    slow = primal_dual_flow(p, np.array([0.0, 1.0, 2000.0]))
+    assert slow[0] == errors[0]
+    assert slow[2] < 1e-3 < slow[1]

@@ -8,8 +8,16 @@ import pytest
 from dualarm_repro import load_arm
 from dualarm_repro.control import task_search
 from dualarm_repro.control.frozen import FrozenScenario
-from dualarm_repro.control.joint_ranges import angle_excess, random_configuration, speed_excess
-from dualarm_repro.control.random_tasks import CircleTask, admissible, draw_task, naive_motion
+from dualarm_repro.control.joint_ranges import random_configuration
+from dualarm_repro.control.random_tasks import (
+    CircleTask,
+    admissible,
+    draw_task,
+    lowest,
+    naive_motion,
+    own_clearance,
+    stands_clear,
+)
 from dualarm_repro.control.scenario import load_scenario
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.task_search import CROSSING, TO_LIMITS, TOO_CLOSE, score, search_task
@@ -22,20 +30,9 @@ RADII = (0.1, 0.2)
 def test_random_configurations_stay_within_their_ranges(system):
     rng = np.random.default_rng(0)
     q = np.array([random_configuration(system, rng) for _ in range(50)])
-    assert angle_excess(system, q) < 0.0
+    assert (q > system.limits.lower).all()
+    assert (q < system.limits.upper).all()
     assert np.abs(q).max() <= np.pi
-
-
-def test_excess_is_that_of_the_worst_joint(system):
-    arrays = system.arrays
-    middle = 0.5 * (arrays.lower + arrays.upper)
-    q = np.tile(middle, (3, 1))
-    q[1, 4], q[2, 9] = arrays.upper[4] + 0.2, arrays.lower[9] - 0.3
-    assert angle_excess(system, q) == pytest.approx(0.3)
-    x = np.zeros((2, 14))
-    x[1, 3] = -arrays.speed[3] - 0.1
-    assert speed_excess(system, x) == pytest.approx(0.1)
-    assert speed_excess(system, np.zeros((2, 14))) == pytest.approx(-arrays.speed.min())
 
 
 def test_drawn_tasks_are_of_the_stream_and_start_at_the_tips(system):
@@ -58,6 +55,27 @@ def test_a_naive_motion_counts_if_it_follows_and_starts_apart(crossing):
     assert not admissible(naive, settings.changed(outer=naive.distance[0] + 0.01))
     assert not admissible(replace(naive, error=naive.error + 2e-3), settings)
     assert not admissible(replace(naive, stopped="failed"), settings)
+
+
+def test_a_task_stands_clear_of_itself_and_of_the_floor(crossing):
+    system = crossing.system
+    drawn = (draw_task(system, np.random.default_rng([6, k]), RADII) for k in range(100))
+    task = next(one for one in drawn if stands_clear(system, one))
+    assert lowest(system, task.q0) > 0.0
+    arrays = system.arrays
+    folded = next(
+        q
+        for q in np.random.default_rng(1).uniform(arrays.lower, arrays.upper, (200, system.nq))
+        if own_clearance(system, q) <= 0.0
+    )
+    assert not stands_clear(system, replace(task, q0=folded))
+    sunk = next(
+        q
+        for q in np.random.default_rng(2).uniform(arrays.lower, arrays.upper, (200, system.nq))
+        if lowest(system, q) < 0.0
+    )
+    assert not stands_clear(system, replace(task, q0=sunk))
+    assert not stands_clear(system, replace(task, radius=5.0))
 
 
 def test_scores_are_those_of_the_wanted_task(crossing):

@@ -1,18 +1,21 @@
 """Scenario files, capsules of arms, arm systems and motions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import yaml
 
 from dualarm_repro import load_arm
 from dualarm_repro.control.link_capsules import sticking_out, with_capsules
-from dualarm_repro.control.motion import Motion
+from dualarm_repro.control.motion import FOLLOWED, JointLimits, Motion
 from dualarm_repro.control.scenario import load_scenario
 from dualarm_repro.control.system import ArmSystem
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.errors import ConfigurationError, DataFileError, InputError
 
 FILE = data_path("scenes", "patent_crossing.yaml")
+LIMITS = JointLimits(np.full(2, -3.0), np.full(2, 3.0), np.full(2, 8.0))
 
 
 @pytest.mark.parametrize(
@@ -72,9 +75,33 @@ def test_motion_measures():
     t = 0.1 * np.arange(21)
     q = np.column_stack([np.sin(2 * np.pi * t), t])
     x = np.diff(q, axis=0) / 0.1
-    motion = Motion(0.1, t, q, x, np.zeros((21, 2)), np.ones(21), np.zeros(20), np.zeros(20))
+    motion = Motion(
+        0.1, t, q, x, np.zeros((21, 2)), np.ones(21), np.zeros(20), np.zeros(20), LIMITS
+    )
     assert motion.completed
     assert motion.drift(1.0) == pytest.approx([1.0, 2.0])
     assert motion.peak_speed == pytest.approx(np.abs(x).max())
     assert motion.energy == pytest.approx(0.05 * np.sum(x**2))
     assert motion.peak_acceleration == pytest.approx(np.abs(np.diff(x, axis=0)).max() / 0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("angle", {"q": np.array([[0.0, 0.0], [0.0, 3.1], [0.0, 0.0]])}),
+        ("angle", {"q": np.array([[-3.2, 0.0], [0.0, 0.0], [0.0, 0.0]])}),
+        ("speed", {"x": np.array([[0.0, 0.0], [-8.5, 0.0]])}),
+        ("contact", {"distance": np.array([0.1, 0.0, 0.1])}),
+        ("path", {"error": np.array([[0.0, 0.0], [0.0, 2 * FOLLOWED], [0.0, 0.0]])}),
+    ],
+)
+def test_a_motion_that_breaks_a_bound_is_not_completed(name, change):
+    still = np.zeros((3, 2)), np.zeros((2, 2)), np.zeros((3, 2)), np.ones(3)
+    plain = Motion(0.1, 0.1 * np.arange(3), *still, np.zeros(2), np.zeros(2), LIMITS)
+    assert plain.completed
+    assert plain.speed_excess == -8.0
+    found = replace(plain, **change)
+    assert found.finished
+    assert found.broken == (name,)
+    assert not found.completed
+    assert not replace(plain, stopped="at once").completed

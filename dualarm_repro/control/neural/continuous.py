@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
-from ...errors import UnknownNameError
+from ...errors import InputError, UnknownNameError
 from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
 from ..closed_loop import observe
@@ -59,6 +59,8 @@ def integrate_network(
         raise UnknownNameError(
             "integrate_network", "integrator", integrator, f"one of {', '.join(INTEGRATORS)}"
         )
+    if network.integral:
+        raise InputError("integrate_network", "integral", network.integral, "0, without integral")
     q0, numbers, steps = checked_run(system, circles, q0, settings, sample, 1)
     arrays, circle, numbered = system.arrays, circles.numbers(), network.numbers()
     n, m = system.nq, 3 * len(system.arms)
@@ -94,5 +96,6 @@ def integrate_network(
         distance[k] = observe(buffers, position, error[k])
     stopped = None if found.success else f"{found.message} at t = {found.t[-1]:.3f} s"
     counts, given = np.array(rows[:-1]), np.zeros(len(q) - 1)
-    motion = Motion(sample, found.t, q, x[:-1], error, distance, counts, given, stopped)
+    looks = found.t, q, x[:-1], error, distance, counts, given
+    motion = Motion(sample, *looks, system.limits, stopped)
     return motion, int(found.nfev)

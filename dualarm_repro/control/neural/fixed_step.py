@@ -6,30 +6,39 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...kernel import kernel
-from ..assembly import make_buffers
+from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
+from ..parts import ProgramParts
+from ..readings import Readings, angles_at, noise_at
 from ..settings import ControllerSettings
 from ..simulate import UNDISTURBED, checked_run, truncated
 from ..system import ArmSystem
 from .network import state_rate
 from .network_settings import NetworkSettings
+from .optimality import optimality
 
 #: Joint speed [rad/s] beyond which the network counts as diverged.
 FASTEST = 1e3
 
 
 @kernel
-def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, noise, disturbance):
+def _in_use(program, rows):
+    """The program with the rows in use."""
+    target, A, b, G, h, lower, upper = program
+    return ProgramParts(target, A, b, G[:rows], h[:rows], lower, upper)
+
+
+@kernel
+def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, readings, disturbance):
     """q += dt x, y += dt dy/dt.
 
     Parameters
     ----------
     y0 : (n + m,)
         State of the network at the start.
-    noise : (steps, P) or (0, 0)
-        Error of the distance readings [m].
+    readings : Readings
     disturbance : (steps, n + m) or (0, 0)
         Added to the right-hand side of the state equation.
 
@@ -44,13 +53,18 @@ def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, noise, dist
     run = Run(q, x, error, distance, np.zeros(steps, np.int64), np.zeros(steps))
     q[0] = q0
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
-    y, rate = y0.copy(), np.empty(len(y0))
+    y, rate, F, total = y0.copy(), np.empty(len(y0)), np.empty(len(y0)), np.zeros(len(y0))
     for step in range(steps + 1):
         t = step * dt
-        reading = noise[step] if step < len(noise) else np.empty(0)
+        noise, seen = noise_at(readings, step), angles_at(readings, q, step)
         pushed = disturbance[step] if step < len(disturbance) else np.zeros(len(y))
-        at = q[step], q0, t, y, reading, pushed
+        pushed = pushed - network.integral * total
+        at = seen, q0, t, y, noise, pushed
         rows = state_rate(arrays, numbers, network, circle, *at, B, rate)
+        if network.integral > 0.0:
+            optimality(network, _in_use(B.program, rows), y, F)
+            total += dt * F
+        sense(arrays, numbers, q[step], noise, B)
         follow(circle, t, position, velocity)
         distance[step] = observe(B, position, error[step])
         if step == steps:
@@ -73,7 +87,7 @@ def simulate_network(
     *,
     dt: float = 1e-3,
     cycles: int = 1,
-    noise: np.ndarray = UNDISTURBED,
+    readings: Readings | None = None,
     disturbance: np.ndarray = UNDISTURBED,
     y0: np.ndarray | None = None,
 ) -> Motion:
@@ -87,7 +101,8 @@ def simulate_network(
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
     arguments = system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt
-    return truncated(dt, *run_network(*arguments, noise, disturbance))
+    readings = readings or Readings.of(system)
+    return truncated(system, dt, *run_network(*arguments, readings, disturbance))
 
 
 def divergence_time(gamma: float, dt: float) -> float:

@@ -32,11 +32,15 @@ class NetworkNumbers(NamedTuple):
     growing: bool
     hessian: bool
     feed_forward: int
+    integral: float
     cap: float
 
 
 class NetworkSettings(Settings):
-    """M dy/dt = -dF/dt - gain Psi(F), gain = gamma e^t or gamma.
+    """M dy/dt = -dF/dt - gain Psi(F) - kappa int F dt, gain = gamma e^t or gamma.
+
+    The integral is that of noise-tolerant networks (Jin, Zhang, Li and Zhang 2016); the solvers of
+    fixed step have it.
 
     Raises
     ------
@@ -54,6 +58,11 @@ class NetworkSettings(Settings):
     growing: bool = Field(
         default=True,
         description="gamma e^t (varying-parameter network), else gamma (zeroing network)",
+    )
+    integral: float = Field(
+        default=0.0,
+        ge=0.0,
+        description="kappa of d xi/dt = -gain Psi(xi) - kappa int xi dt, tolerant of noise [1/s^2]",
     )
     hessian: bool = Field(
         default=True,

@@ -20,6 +20,7 @@ from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
+from ..readings import Readings, angles_at, noise_at
 from ..settings import ControllerSettings, RowForm
 from ..simulate import UNDISTURBED, checked_run, truncated
 from ..system import ArmSystem
@@ -84,7 +85,17 @@ def iterate(program, u, iterations, tolerance):
 
 
 @kernel
-def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, disturbance):
+def flow(program, u, step, count):
+    """``count`` Euler steps of du/ds = -(I + M^T) e(u) in place."""
+    e, d = np.empty(len(u)), np.empty(len(u))
+    for _ in range(count):
+        projection_error(program, u, e)
+        direction(program, e, d)
+        u -= step * d
+
+
+@kernel
+def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, readings, disturbance):
     """Closed loop with a fixed number of iterations per tick, multipliers kept from tick to tick.
 
     ``disturbance`` (steps, n + m) is added to dx and dy of every tick, scaled by the step. One row
@@ -100,13 +111,14 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, noise, d
     position, velocity = np.empty((arms, 3)), np.empty((arms, 3))
     kept, pair_kept = np.zeros(n + m), np.zeros(len(arrays.pairs))
     for step in range(steps + 1):
-        reading = noise[step] if step < len(noise) else np.empty(0)
-        count = sense(arrays, numbers, q[step], reading, B)
+        noise, at = noise_at(readings, step), angles_at(readings, q, step)
+        sense(arrays, numbers, q[step], noise, B)
         follow(circle, step * dt, position, velocity)
         distance[step] = observe(B, position, error[step])
         if step == steps:
             break
-        program = state(arrays, numbers, q[step], q0, position, velocity, count, B)
+        count = sense(arrays, numbers, at, noise, B)
+        program = state(arrays, numbers, at, q0, position, velocity, count, B)
         k = len(program.h)
         u = np.empty(n + m + k)
         u[: n + m] = kept
@@ -135,7 +147,7 @@ def simulate_primal_dual(
     *,
     iterations: int = 100,
     dt: float = 1e-3,
-    noise: np.ndarray = UNDISTURBED,
+    readings: Readings | None = None,
     disturbance: np.ndarray = UNDISTURBED,
 ) -> Motion:
     """Follow the circles with ``iterations`` steps of the primal-dual network per tick.
@@ -152,4 +164,5 @@ def simulate_primal_dual(
     if iterations < 1:
         raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
     arguments = system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt
-    return truncated(dt, *run_primal_dual(*arguments, noise, disturbance))
+    readings = readings or Readings.of(system)
+    return truncated(system, dt, *run_primal_dual(*arguments, readings, disturbance))

@@ -25,7 +25,7 @@ def state_in_right_side() -> Proof:
     return Proof(
         "with the Hessian in the matrix the network completes the frozen task; with E alone it "
         "diverges",
-        with_hessian.completed and not without.completed,
+        with_hessian.completed and not without.finished,
         {
             "diverges_at_s": float(without.time[-1]),
             "tip_error_with_hessian": with_hessian.largest_error,
@@ -72,7 +72,7 @@ def unbounded_gain() -> Proof:
     for gamma in GAINS:
         network = NetworkSettings(gamma=gamma, capped=False)
         motion = simulate_network(*scenario.parts, ControllerSettings(), network)
-        found.append(float(motion.time[-1]) if not motion.completed else np.inf)
+        found.append(float(motion.time[-1]) if not motion.finished else np.inf)
     late = np.subtract(found, predicted)
     return Proof(
         "explicit steps diverge within 0.4 s of the time at which gamma exp(t) times the step is "

@@ -119,6 +119,11 @@ def test_rest_points_depend_on_the_penalty():
         ("patent.claim_gain_time_varying", {"compared_gain": "start"}, Verdict.UNDER_ASSUMPTION),
         ("patent.claim_gain_time_varying", {"compared_gain": "ceiling"}, Verdict.NOT_REPRODUCED),
         ("patent.claim_vs_pinv", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_real_time", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_real_time", {"accuracy_bound": 1e-5}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_redundant_motion", {"energy_weight": "inertia"}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_energy", {"energy_measure": "work"}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_faster", {"speed_measure": "flow_time"}, Verdict.UNDER_ASSUMPTION),
         ("patent.eq_avoid", {"avoidance_form": "arm_normal"}, Verdict.NOT_REPRODUCED),
         ("patent.eq_solver", {"state_matrix": "without_hessian"}, Verdict.NOT_REPRODUCED),
         ("patent.eq_solver", {"feed_forward": "none"}, Verdict.NOT_REPRODUCED),
@@ -132,3 +137,29 @@ def test_verdicts_follow_their_assumptions(item_id, changes, verdict):
 def test_a_run_returns_from_every_step():
     assert {name(step) for step in STEPS} <= set(trace())
     assert len(traced_steps()) == len(STEPS)
+
+
+def test_every_sentence_of_the_text_has_its_place():
+    sentences = REGISTRY.papers["patent"].sentences
+    assert len(sentences) >= 50
+    named = {item for one in sentences for item in one.items or ()}
+    assert named == set(ITEMS)
+    assert [one.place for one in sentences if not one.items] == [
+        "[0090]-[0091]; [0093]; [0096]",
+        "[0097]",
+    ]
+
+
+def test_no_solver_completes_a_task_whose_bounds_it_breaks():
+    table = TASKS.load()
+    table = table[table["collides"].eq(True)]
+    for solver in ("pair_normal", "slack", "calm", "network", "guarded"):
+        done = table[table[f"{solver}_completed"].astype(bool)]
+        assert (done[f"{solver}_distance"] > 0.0).all()
+        assert (done[f"{solver}_beyond_speed"] <= 1e-9).all()
+        assert (done[f"{solver}_beyond_angle"] <= 1e-9).all()
+    ended = table["network_finished"].astype(bool)
+    assert (ended & ~table["network_completed"].astype(bool)).any()
+    guarded = table[["guarded_beyond_speed", "guarded_beyond_angle"]].max(axis=1)
+    assert (guarded <= 1e-9).all()
+    assert (table["guarded_distance"] > 0.0).all()

@@ -6,12 +6,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
+from .....control.trajectory import trajectories
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
 from .....view.arm_drawings import skeleton
@@ -48,11 +48,8 @@ def comparison(assumed: Assumed) -> Result:
     dt = assumed["time_step"]
     naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
     fastest = _path_speed(scenario)
-    table = pd.DataFrame(
-        [(name, *_measures(m)) for name, m in (("without", naive), ("with", motion))],
-        columns=["avoidance", "distance [m]", "tip error [m]", "peak speed [rad/s]",
-                 "peak acceleration [rad/s^2]", "energy [rad^2/s]", "drift [rad]"],
-    )  # fmt: skip
+    parts = scenario.system, scenario.circles
+    table = trajectories({"without": (*parts, naive), "with": (*parts, motion)})
     return Result(
         obtained={
             "naive_distance": naive.smallest_distance,
@@ -62,6 +59,8 @@ def comparison(assumed: Assumed) -> Result:
             "tip_steps": motion.largest_error / (fastest * dt),
             "completed": motion.completed,
             "energy_ratio": motion.energy / naive.energy,
+            "peak_speed": motion.peak_speed,
+            "peak_acceleration": motion.peak_acceleration,
         },
         table=table,
         caption=caption("fig02", scenario=scenario, naive=naive, motion=motion, step=fastest * dt),
@@ -79,17 +78,6 @@ def _path_speed(scenario: FrozenScenario) -> float:
     """Largest speed of a tip along its path [m/s]."""
     velocities = [scenario.circles.at(t)[1] for t in np.linspace(0.0, scenario.period, 201)]
     return float(np.linalg.norm(velocities, axis=-1).max())
-
-
-def _measures(motion: Motion) -> tuple[float, ...]:
-    return (
-        motion.smallest_distance,
-        motion.largest_error,
-        motion.peak_speed,
-        motion.peak_acceleration,
-        motion.energy,
-        float(np.abs(motion.q[-1] - motion.q[0]).max()),
-    )
 
 
 def _skeletons(scenario: FrozenScenario, q: np.ndarray) -> list[np.ndarray]:

@@ -9,13 +9,13 @@ import numpy as np
 
 from .....control.controller import VelocityController
 from .....control.frozen import FrozenScenario
-from .....control.joint_ranges import angle_excess, speed_excess
 from .....control.motion import Motion
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import control_cost, network_control_cost
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
+from .....control.trajectory import trajectories
 from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
 from .....ledger.captions import captions
 from .....tracking import memo
@@ -48,17 +48,24 @@ def respects_limits(assumed: Assumed) -> Result:
     """Angle limits on a task that drives joints to them, speed limits on the same task run fast."""
     settings = controller_settings(assumed, *LIMITS)
     slow, fast = frozen("limits"), frozen("limits", duration=assumed["fast_duration"])
-    angles = [angle_excess(slow.system, m.q) for m in _three(slow, settings, COARSE_STEP)]
-    motions = _three(fast, settings, CONTROL_STEP)
-    speeds = [speed_excess(fast.system, m.x) for m in motions]
+    calm, motions = _three(slow, settings, COARSE_STEP), _three(fast, settings, CONTROL_STEP)
+    named = {
+        f"{way}, {pace}": (scenario.system, scenario.circles, motion)
+        for pace, scenario, found in (("slow", slow, calm), ("fast", fast, motions))
+        for way, motion in zip(_WAYS, found, strict=True)
+    }
     return Result(
         obtained={
-            **dict(zip(("naive_excess", "angle_excess", "network_excess"), angles, strict=True)),
-            "naive_speed_excess": speeds[0],
-            "speed_excess": speeds[1],
-            "network_speed_excess": speeds[2],
+            "naive_excess": calm[0].angle_excess,
+            "angle_excess": calm[1].angle_excess,
+            "network_excess": calm[2].angle_excess,
+            "naive_speed_excess": motions[0].speed_excess,
+            "speed_excess": motions[1].speed_excess,
+            "network_speed_excess": motions[2].speed_excess,
             "fast_slack": float(motions[1].slack.max()),
+            "network_broken": list(motions[2].broken),
         },
+        table=trajectories(named),
         caption=caption("claim_limits", slow=slow.period, fast=fast.period),
     )
 
@@ -79,6 +86,16 @@ def respects_limits(assumed: Assumed) -> Result:
             "after a start below d2 the distance falls short of d2 in the end by [m]",
             high="resolution",
         ),
+        Bounded(
+            "network_shortfall",
+            "with the network the distance falls short of d2 by at most [m]",
+            high="resolution",
+        ),
+        Bounded(
+            "network_end_shortfall",
+            "and after the start below d2 in the end by [m]",
+            high="resolution",
+        ),
     ],
 )
 def two_ranges(assumed: Assumed) -> Result:
@@ -90,18 +107,36 @@ def two_ranges(assumed: Assumed) -> Result:
     approach, bound = _nearest_pair(scenario, controller, motion)
     inside = motion.distance[:-1] < settings.outer
     changed = _changed(scenario, settings, motion)
-    start = run(frozen("too_close"), settings, COARSE_STEP, slack=True)
+    close = frozen("too_close")
+    start = run(close, settings, COARSE_STEP, slack=True)
+    network = _by_network(scenario, settings, CONTROL_STEP)
+    network_start = _by_network(close, settings, CONTROL_STEP)
+    parts, close_parts = scenario.parts[:2], close.parts[:2]
     return Result(
         obtained={
             "outside": float(changed[~inside].max(initial=0.0)),
             "inside": float(changed[inside].max(initial=0.0)),
             "shortfall": settings.inner - motion.smallest_distance,
             "end_shortfall": float(settings.inner - start.distance[-1]),
+            "network_shortfall": settings.inner - network.smallest_distance,
+            "network_end_shortfall": float(settings.inner - network_start.distance[-1]),
+            "network_broken": list(network_start.broken),
             "start_distance": float(start.distance[0]),
             "inside_share": float(inside.mean()),
         },
         caption=caption(
-            "claim_two_ranges", distance=motion.smallest_distance, end=start.distance[-1]
+            "claim_two_ranges",
+            distance=motion.smallest_distance,
+            end=start.distance[-1],
+            network=network.smallest_distance,
+            network_end=network_start.distance[-1],
+            speed=network_start.speed_excess,
+        ),
+        table=trajectories(
+            {
+                "crossing, QP": (*parts, motion),
+                "start below d2, QP": (*close_parts, start),
+            }
         ),
         alt="Distance between two ranges, approach speed below its falling bound, and number of "
         "rows over time.",
@@ -135,14 +170,14 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
     exact = [run(s, settings, dt) for s in (near, far)]
     counted = counted_tasks(assumed)
     leave = float((counted["naive_beyond_angle"] > 0).mean())
-    steps = _step_operations(settings)
+    steps = step_operations(settings)
     period = max(steps.values()) / assumed["operation_rate"] / dt
     return Result(
         obtained={
             "naive_distance": naive[0].smallest_distance,
             "distance": exact[0].smallest_distance,
-            "naive_excess": angle_excess(far.system, naive[1].q),
-            "excess": angle_excess(far.system, exact[1].q),
+            "naive_excess": naive[1].angle_excess,
+            "excess": exact[1].angle_excess,
             "period_share": period,
             **{f"{name}_operations": count for name, count in steps.items()},
             "random_tasks_beyond_limits": leave,
@@ -156,6 +191,9 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
     )
 
 
+_WAYS = ("pseudo-inverse", "QP", "network")
+
+
 def _three(
     scenario: FrozenScenario, settings: ControllerSettings, dt: float
 ) -> tuple[Motion, Motion, Motion]:
@@ -163,8 +201,12 @@ def _three(
     return (
         run(scenario, pseudo_inverse(settings), dt),
         run(scenario, settings, dt, slack=True),
-        simulate_network(*scenario.parts, settings, NetworkSettings(), dt=dt),
+        _by_network(scenario, settings, dt),
     )
+
+
+def _by_network(scenario: FrozenScenario, settings: ControllerSettings, dt: float) -> Motion:
+    return simulate_network(*scenario.parts, settings, NetworkSettings(), dt=dt)
 
 
 def _changed(scenario: FrozenScenario, settings: ControllerSettings, motion: Motion) -> np.ndarray:
@@ -179,7 +221,7 @@ def _changed(scenario: FrozenScenario, settings: ControllerSettings, motion: Mot
 
 
 @memo(64)
-def _step_operations(settings: ControllerSettings) -> dict[str, float]:
+def step_operations(settings: ControllerSettings) -> dict[str, float]:
     """Operations of one whole step of each solver where most rows are active."""
     scenario = frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
+from .....control.motion import FOLLOWED
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, pseudo_inverse_cost
 from .....control.settings import RowForm
@@ -24,29 +25,46 @@ _nearly_all = partial(Generally, at_least="nearly_all", margin="margin")
 @checks(
     "patent.claim_avoids",
     rules=[
-        _nearly_all("free", "colliding random tasks without contact, by the exact QP"),
+        _nearly_all("free", "admitted random tasks without contact, by the exact QP"),
         _nearly_all("kept", "and with d2 kept"),
         _nearly_all("network_free", "without contact, by the network"),
         _nearly_all("network_kept", "and with d2 kept"),
     ],
 )
 def avoids(assumed: Assumed) -> Result:
-    """Colliding random tasks on which the arms stay clear, by the exact QP and by the network."""
-    table, exact = colliding_tasks(assumed), _exact(assumed)
+    """Admitted random tasks on which the arms stay clear, by the exact QP and by the network."""
+    table, exact = admitted_tasks(assumed), _exact(assumed)
     least = SETTINGS["inner"] - assumed["reading_noise"]
     found: dict[str, dict[str, int]] = {}
-    for name, solver in (("", exact), ("network_", "network")):
+    for name, solver in (("", exact), ("network_", "network"), ("guarded_", "guarded")):
         distance = table[f"{solver}_distance"]
         found |= {f"{name}free": _count(distance > 0.0), f"{name}kept": _count(distance >= least)}
-    smallest = {
-        name: float(table[f"{name}_distance"].min()) for name in (*RowForm, "slack", "network")
+    solvers = (*RowForm, "slack", "calm", "network", "guarded")
+    smallest = {name: float(table[f"{name}_distance"].min()) for name in solvers}
+    beyond = {
+        "speed": table["network_beyond_speed"] > 0.0,
+        "angle": table["network_beyond_angle"] > 0.0,
     }
-    faster, ran = (table["network_beyond_speed"] > 0.0).sum(), table["network_completed"].sum()
+    rough = {name: float(table[f"{name}_roughness"].max()) for name in ("slack", "calm")}
     return Result(
-        obtained={**found, "smallest": smallest, "network_beyond_speed": int(faster)},
-        table=pd.DataFrame(smallest.items(), columns=["reading", "smallest distance [m]"]),
+        obtained={
+            **found,
+            "smallest": smallest,
+            "network_beyond_speed": int(beyond["speed"].sum()),
+            "network_beyond_angle": int(beyond["angle"].sum()),
+            "roughness": rough,
+        },
+        table=pd.DataFrame(
+            [(name, *_worst(table, name)) for name in solvers],
+            columns=["solver", *_WORST],
+        ),
         caption=caption(
-            "claim_avoids", exact=exact, inner=SETTINGS["inner"], assumed=assumed, ran=int(ran)
+            "claim_avoids",
+            exact=exact,
+            inner=SETTINGS["inner"],
+            assumed=assumed,
+            ran=int(table["network_finished"].sum()),
+            calm=SETTINGS["calm"],
         ),
     )
 
@@ -57,47 +75,50 @@ def avoids(assumed: Assumed) -> Result:
         _nearly_all(
             "done", "tasks that joint limits alone allow, completed accurately by the exact QP"
         ),
-        _nearly_all(
-            "network_done", "the same by the network, without contact and within the speed limits"
-        ),
+        _nearly_all("network_done", "the same by the network, within distance and limits"),
     ],
 )
 def completes(assumed: Assumed) -> Result:
-    """Share of the colliding random tasks that are completed, among those the limits allow."""
-    every = colliding_tasks(assumed)
-    table = every[every["limits_completed"].astype(bool)]
+    """Share of the admitted tasks that are completed, and what the others fail by."""
+    every, table = colliding_tasks(assumed), admitted_tasks(assumed)
     bound, counted = assumed["accuracy_bound"], counted_tasks(assumed)
-    done = {
-        name: _count(table[f"{name}_completed"].astype(bool) & (table[f"{name}_error"] <= bound))
-        for name in (*RowForm, "slack")
-    }
-    network = _count(
-        table["network_completed"].astype(bool)
-        & (table["network_error"] <= bound)
-        & (table["network_distance"] > 0.0)
-        & (table["network_beyond_speed"] <= 0.0)
-    )
+    done = {name: _count(_accurate(table, name, bound)) for name in _SOLVERS}
+    alone = every[_alone(every)]
     shares = {
-        _WORDS[name]: {"exact QP": Share.of(done[name]["count"], len(table))} for name in RowForm
+        words: {"exact QP": Share.of(done[name]["count"], len(table))}
+        for name, words in _WORDS.items()
+    }
+    given = {
+        "limits": Share.of(done["pair_normal"]["count"], len(table)),
+        "avoidance": Share.of(int(_accurate(alone, "pair_normal", bound).sum()), len(alone)),
+    }
+    failed = {
+        "limits_alone": len(every) - len(table),
+        "avoidance_alone": int((~_alone(every)).sum()),
+        "by_either": int((~_alone(every)).sum() - (~_alone(table)).sum()),
+        "only_together": int((_alone(table) & ~_accurate(table, "pair_normal", np.inf)).sum()),
     }
     return Result(
         obtained={
             "done": done[_exact(assumed)],
-            "network_done": network,
+            "network_done": done["network"],
+            "guarded_done": done["guarded"],
+            "set": int(TASKS.load()["set"].sum()),
             "tasks": len(counted),
             "colliding": len(every),
-            "beyond_limits": len(every) - len(table),
+            "failed": failed,
+            "given": {name: [one.value, one.low, one.high] for name, one in given.items()},
             "completed": {name: value["count"] for name, value in done.items()},
             "off_by_a_centimetre_with_slack": float((table["slack_error"] > 1e-2).mean()),
         },
         table=pd.DataFrame(
-            [(name, *_quality(table, name)) for name in RowForm],
-            columns=["reading", "completed", *_QUALITIES],
+            [(name, *_quality(table, name)) for name in _SOLVERS],
+            columns=["solver", "completed", *_QUALITIES],
         ),
         caption=caption("claim_task_completed", words=_WORDS),
-        alt="Bars with the share of colliding tasks completed by each of five readings of the "
+        alt="Bars with the share of admitted tasks completed by each of five readings of the "
         "avoidance rows.",
-        figure=lambda: shares_figure(shares, "share of the colliding tasks that are completed"),
+        figure=lambda: shares_figure(shares, "share of the admitted tasks that are completed"),
     )
 
 
@@ -128,7 +149,10 @@ def slow_pseudo_inverse(assumed: Assumed) -> Result:
     )
 
 
-_QUALITIES = ("median peak acceleration [rad/s^2]", "median energy [rad^2/s]")
+_QUALITIES = ("largest tip error [m]", "median peak acceleration [rad/s^2]")
+_WORST = ("smallest distance [m]", "largest tip error [m]", "peak acceleration [rad/s^2]",
+          "rms acceleration [rad/s^2]", "beyond speed limit [rad/s]")  # fmt: skip
+_SOLVERS = (*RowForm, "slack", "calm", "network", "guarded")
 _WORDS = {
     "pair_normal": "relative, along the normal",
     "arm_normal": "other arm standing still, along the normal",
@@ -150,6 +174,22 @@ def colliding_tasks(assumed: Assumed) -> pd.DataFrame:
     return table[table["collides"].astype(bool)].infer_objects()
 
 
+def admitted_tasks(assumed: Assumed) -> pd.DataFrame:
+    """Those among them that joint limits alone, without the avoidance rows, allow."""
+    table = colliding_tasks(assumed)
+    return table[table["limits_finished"].astype(bool) & (table["limits_error"] <= FOLLOWED)]
+
+
+def _alone(table: pd.DataFrame) -> pd.Series:
+    """Tasks that the avoidance rows alone, without joint limits, allow."""
+    return table["alone_finished"].astype(bool) & (table["alone_error"] <= FOLLOWED)
+
+
+def _accurate(table: pd.DataFrame, name: str, bound: float) -> pd.Series:
+    """Tasks completed, none of the bounds broken, with the tips within a bound [m]."""
+    return table[f"{name}_completed"].astype(bool) & (table[f"{name}_error"] <= bound)
+
+
 def _exact(assumed: Assumed) -> str:
     """Prefix of the columns of the exact QP: its reading, or with slack."""
     form = assumed["avoidance_form"]
@@ -160,10 +200,17 @@ def _count(chosen: pd.Series) -> dict[str, int]:
     return {"count": int(chosen.sum()), "of": len(chosen)}
 
 
-def _quality(table: pd.DataFrame, form: str) -> tuple[int, float, float]:
-    done = table[table[f"{form}_completed"].astype(bool)]
+def _worst(table: pd.DataFrame, name: str) -> tuple[float, ...]:
+    columns = [
+        table[f"{name}_{key}"] for key in ("error", "acceleration", "roughness", "beyond_speed")
+    ]
+    return (float(table[f"{name}_distance"].min()), *(float(column.max()) for column in columns))
+
+
+def _quality(table: pd.DataFrame, name: str) -> tuple[int, float, float]:
+    done = table[table[f"{name}_completed"].astype(bool)]
     return (
         len(done),
-        float(done[f"{form}_acceleration"].median()),
-        float(done[f"{form}_energy"].median()),
+        float(done[f"{name}_error"].max()),
+        float(done[f"{name}_acceleration"].median()),
     )

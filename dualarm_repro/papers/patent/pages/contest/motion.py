@@ -15,6 +15,7 @@ from .....control.neural.continuous import INTEGRATORS, integrate_network
 from .....control.neural.fixed_step import simulate_network
 from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.primal_dual import simulate_primal_dual
+from .....control.readings import Readings
 from .....control.settings import ControllerSettings
 from .....ledger import REGISTRY, Assumed, Bounded, Exceeds, Is, Result
 from .....ledger.captions import captions
@@ -25,6 +26,19 @@ from ...reading import network_settings
 
 checks = partial(REGISTRY.checks, page="patent/contest")
 caption = captions(__file__)
+#: Kind of disturbance to the assumption that says how large it is.
+SIZES = {
+    "state": "noise_amplitude",
+    "readings": "reading_noise",
+    "model": "model_error",
+    "delay": "reading_delay",
+}
+_TOLD = {
+    "state": "a constant push on the state equation",
+    "readings": "noisy distances",
+    "model": "wrong joint angles, and so a wrong model",
+    "delay": "late joint angles",
+}
 #: Independent disturbances of each kind.
 REPEATS = 4
 _RANDOM = 0.1  # [rad/s] size of a random state
@@ -53,6 +67,7 @@ MEASURES: dict[str, Callable[[Motion], float]] = {
             "advantage",
             "what the disturbance adds with the primal-dual network less that with the "
             "network, by their sum",
+            threshold="noticeable",
         )
     ],
 )
@@ -61,11 +76,11 @@ def more_robust(assumed: Assumed) -> Result:
     network = network_settings(assumed, "gain", "gain_cap", "penalty_form")
     kind, measure = assumed["disturbance"], assumed["robustness_measure"]
     count = round(assumed["primal_dual_network"])
-    sizes = {"state": assumed["noise_amplitude"], "readings": assumed["reading_noise"]}
+    size = assumed[SIZES[kind]]
     runs = {
         (name, number): motion
         for number in range(REPEATS)
-        for name, motion in _motions(network, count, kind, sizes[kind], number).items()
+        for name, motion in _motions(network, count, kind, size, number).items()
     }
     calm = _motions(network, count, "none", 0.0, 0)
     added = {
@@ -88,20 +103,23 @@ def more_robust(assumed: Assumed) -> Result:
         ),
         table=pd.DataFrame(rows, columns=["disturbance", "solver", "repeat", *_COLUMNS]),
         caption=caption(
-            "claim_robust", kind=kind, measure=measure, repeats=REPEATS, own=own, other=other
+            "claim_robust",
+            **{"kind": kind, "measure": measure, "repeats": REPEATS, "own": own, "other": other},
+            told=_TOLD,
+            noticeable=_noticeable(),
         ),
     )
 
 
 _COLUMNS = (
-    "completed", "distance [m]", "tip error [m]", "late tip error [m]",
+    "finished", "distance [m]", "tip error [m]", "late tip error [m]",
     "peak acceleration [rad/s^2]",
 )  # fmt: skip
 
 
 def _row(motion: Motion) -> tuple[bool, float, float, float, float]:
     return (
-        motion.completed,
+        motion.finished,
         motion.smallest_distance,
         motion.largest_error,
         _late(motion),
@@ -138,7 +156,8 @@ def _exact(kind: str, size: float, number: int) -> Motion:
 
 
 def _disturbed(kind: str, size: float, number: int) -> dict[str, Any]:
-    """Arguments of a run: a constant push of random signs, or white noise on the distances."""
+    """Arguments of a run: a constant push of random signs on the state, white noise on the
+    distances, angles off by random signs, or angles that are late (the same every time)."""
     scenario = frozen("crossing")
     steps, system = round(scenario.period / CONTROL_STEP), scenario.system
     rng = np.random.default_rng([SEED, number])
@@ -146,13 +165,19 @@ def _disturbed(kind: str, size: float, number: int) -> dict[str, Any]:
         signs = rng.choice([-1.0, 1.0], system.nq + 3 * len(system.arms))
         return {"disturbance": np.tile(size * signs, (steps, 1))}
     if kind == "readings":
-        return {"noise": size * rng.standard_normal((steps, len(system.arrays.pairs)))}
+        noise = size * rng.standard_normal((steps, len(system.arrays.pairs)))
+        return {"readings": Readings.of(system, noise=noise)}
     return {}
+
+
+def _noticeable() -> float:
+    """Relative difference from which on an effect counts as another."""
+    return REGISTRY.look("patent.claim_robust", "thresholds").thresholds["noticeable"].value
 
 
 def _added(motion: Motion, calm: Motion, measure: str) -> float:
     """What the disturbance adds; infinite for a motion that breaks down."""
-    if not motion.completed:
+    if not motion.finished:
         return np.inf
     return max(MEASURES[measure](motion) - MEASURES[measure](calm), 0.0)
 

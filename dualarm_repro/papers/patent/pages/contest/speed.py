@@ -11,19 +11,21 @@ from .....control.contest import Entry, contest
 from .....control.convergence import (
     first_within,
     network_errors,
+    network_flow,
     primal_dual_errors,
+    primal_dual_flow,
     steps_in_a_row,
 )
-from .....control.instrument import Cost
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, primal_dual_cost
+from .....instrument import Cost
 from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
+from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
-from .....ledger.witnesses import one_for_each_side
+from .....ledger.witnesses import is_open, one_for_each_side
 from .....tracking import memo
 from .....view.control_figures import contest_figure, convergence_figure
 from ...problems import busiest, recorded
-from ...reading import PENALTY, network_settings
 
 checks = partial(REGISTRY.checks, page="patent/contest")
 caption = captions(__file__)
@@ -31,7 +33,10 @@ NEWTON_STEPS = (1, 2, 4, 8)
 ITERATIONS = (1, 3, 10, 30, 100, 300)
 #: Problems in a row on which the network starts from its state before.
 IN_A_ROW = 60
-_MOST_STEPS, _MOST_ITERATIONS = 60, 30_000
+_MOST_STEPS, _MOST_ITERATIONS = 30, 30_000
+#: Integrals of the gain at which the networks are looked at in continuous time.
+_FLOW = np.linspace(0.0, 25.0, 251)
+_LONG_FLOW = np.concatenate([[0.0], np.geomspace(0.1, 1500.0, 110)])
 _NAMES = {"active_set": "exact active set", "network": "network",
           "primal_dual": "primal-dual network"}  # fmt: skip
 
@@ -42,63 +47,72 @@ _NAMES = {"active_set": "exact active set", "network": "network",
     rules=[
         Generally(
             "sooner",
-            "problems on which the network is near the minimiser with fewer operations",
+            "problems on which the network is near the minimiser with fewer operations, or earlier",
             at_least="nearly_all",
             margin="margin",
         )
     ],
 )
 def faster_than_primal_dual(assumed: Assumed) -> Result:
-    """Operations of both networks from a zero state until |x - x*| is below the threshold."""
-    network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
-    cost, every = assumed["function_cost"], recorded(100)
+    """Operations, or time, of both networks from a zero state until |x - x*| is small."""
+    threshold, every = assumed["convergence_threshold"], recorded(100)
+    cost, gamma = assumed["function_cost"], assumed["gain"]
     # At rest both are near from the start; what is left has something to do.
-    busy = [k for k, errors in enumerate(_primal_dual_errors()) if errors[0] > threshold]
-    problems = [every[k] for k in busy]
-    steps = [first_within(network_errors(p, network, _MOST_STEPS), threshold) for p in problems]
-    reached_at = [first_within(_primal_dual_errors()[k], threshold) for k in busy]
+    busy = [k for k, errors in enumerate(primal_dual_curves()) if errors[0] > threshold]
+    chosen = _cheapest(busy, threshold, cost)
+    steps = [first_within(network_curves(chosen)[k], threshold) for k in busy]
+    reached_at = [first_within(primal_dual_curves()[k], threshold) for k in busy]
     others = [None if at is None else int(_counts()[at]) for at in reached_at]
-    costs = [each.total(cost) for each in _network_costs(network.penalty)]
-    own = [None if s is None else s * costs[k] for s, k in zip(steps, busy, strict=True)]
-    rival = [
-        None if count is None else count * _primal_dual_costs()[k]
-        for count, k in zip(others, busy, strict=True)
+    costs = [each.total(cost) for each in _network_costs(chosen.penalty)]
+    rivals = [
+        None if n is None else n * _primal_dual_costs()[k]
+        for n, k in zip(others, busy, strict=True)
     ]
-    pairs = list(zip(own, rival, strict=True))
-    sooner = [_sooner(*pair) for pair in pairs]
+    own = [None if s is None else s * costs[k] for s, k in zip(steps, busy, strict=True)]
+    flows = [_flow_times(k, threshold, gamma) for k in busy]
+    pairs = list(zip(own, rivals, strict=True))
+    judged = pairs if assumed["speed_measure"] == "operations" else flows
+    sooner = [_sooner(*pair) for pair in judged]
     arrived = [s for s in steps if s is not None]
     reached = [k for k in others if k is not None]
     hardest = busy[max(range(len(busy)), key=lambda k: others[k] or _MOST_ITERATIONS)]
     ratios = [b / a for a, b in pairs if a and b]
+    times = [b / a for a, b in flows if a and b]
+    found = {
+        "sooner": {"count": sum(sooner), "of": len(busy)},
+        "penalty": chosen.penalty,
+        "factor": chosen.factor,
+        "arrived": len(arrived),
+        "network_steps": float(np.median(arrived)) if arrived else None,
+        "primal_dual_arrived": len(reached),
+        "primal_dual_iterations": float(np.median(reached)) if reached else None,
+        "operations_ratio": float(np.median(ratios)) if ratios else None,
+        "earlier": sum(_sooner(*pair) for pair in flows),
+        "time_ratio": float(np.median(times)) if times else None,
+    }
+    cases = (
+        (f"problem {k} of the task", sooner[k], {"network": a, "primal_dual": b})
+        for k, (a, b) in enumerate(judged)
+    )
     return Result(
-        obtained={
-            "sooner": {"count": sum(sooner), "of": len(problems)},
-            "arrived": len(arrived),
-            "network_steps": float(np.median(arrived)) if arrived else None,
-            "primal_dual_arrived": len(reached),
-            "primal_dual_iterations": float(np.median(reached)) if reached else None,
-            "operations_ratio": float(np.median(ratios)) if ratios else None,
-        },
+        obtained=found,
         table=pd.DataFrame(
             {
                 "network steps": steps,
                 "primal-dual iterations": others,
                 "network operations": own,
-                "primal-dual operations": rival,
+                "primal-dual operations": rivals,
+                "network time [s]": [a for a, _ in flows],
+                "primal-dual time [s]": [b for _, b in flows],
             }
         ),
-        caption=caption("claim_faster", every=len(every), threshold=threshold, network=network),
-        witnesses=one_for_each_side(
-            (
-                f"problem {k} of the task",
-                sooner[k],
-                {"network_operations": a, "primal_dual_operations": b},
-            )
-            for k, (a, b) in enumerate(pairs)
+        caption=caption(
+            "claim_faster", every=len(every), threshold=threshold, network=chosen, gamma=gamma
         ),
+        witnesses=one_for_each_side(cases) if is_open("patent.claim_faster", found) else [],
         alt="Distance from the minimiser over the number of steps: the network falls within a "
         "few steps to the bias of its penalty, the other in hundreds without an end.",
-        figure=lambda: convergence_figure(_curves(hardest, network), threshold),
+        figure=lambda: convergence_figure(_curves(hardest, chosen), threshold),
     )
 
 
@@ -106,35 +120,103 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
     "patent.claim_efficient",
     samples=32,
     rules=[
-        Is("arrives", "the network comes within the threshold of x*", value=True),
-        Bounded("saved", "share of the operations of the exact method it saves", low=0.0),
+        Is("arrives", "a network comes within the threshold of x*", value=True),
+        Bounded("saved", "share of the operations of the exact method it saves", low="noticeable"),
     ],
 )
 def faster_than_numerical(assumed: Assumed) -> Result:
-    """Operations on recorded problems in a row: exact active-set method against the network."""
-    network, threshold = network_settings(assumed, *PENALTY), assumed["convergence_threshold"]
-    problems, cost = busiest(IN_A_ROW), assumed["function_cost"]
-    steps, error = steps_in_a_row(problems, network, threshold, NEWTON_STEPS[-1])
-    each = [one.total(cost) for one in _network_costs(network.penalty, in_a_row=True)]
-    exact = [one.total(cost) for one in _exact_costs()]
+    """Operations on problems in a row: exact active-set method against the best network."""
+    threshold, cost = assumed["convergence_threshold"], assumed["function_cost"]
+    exact = sum(one.total(cost) for one in _exact_costs())
+    rows = []
+    for network in declared_networks():
+        steps, error = _in_a_row(network, threshold)
+        each = sum(one.total(cost) for one in _network_costs(network.penalty, in_a_row=True))
+        rows.append((network.penalty, network.factor, steps, error, 1.0 - steps * each / exact))
+    table = pd.DataFrame(rows, columns=["penalty", "p", "steps", "error [rad/s]", "saved"])
+    near = table[table["error [rad/s]"] <= threshold]
+    # The cheapest that is near enough, else the nearest.
+    best = near["saved"].idxmax() if len(near) else table["error [rad/s]"].idxmin()
+    network, found = declared_networks()[best], table.loc[best]
     return Result(
         obtained={
-            "arrives": error <= threshold,
-            "saved": 1.0 - steps * sum(each) / sum(exact),
-            "network_steps": steps,
-            "network_operations": float(np.mean(each)),
-            "exact_operations": float(np.mean(exact)),
+            "arrives": len(near) > 0,
+            "saved": float(found["saved"]),
+            "penalty": network.penalty,
+            "factor": network.factor,
+            "network_steps": int(found["steps"]),
+            "exact_operations": exact / IN_A_ROW,
+            "near_enough": len(near),
+            "tried": len(table),
         },
         measured={
             f"{e.solver}_{e.effort}_us": [e.microseconds, e.low, e.high] for e in _entries(network)
         },
-        table=pd.DataFrame(_entries(network)),
+        table=table,
         caption=caption(
-            "claim_efficient", problems=IN_A_ROW, assumed=assumed, network=network, error=error
+            "claim_efficient",
+            problems=IN_A_ROW,
+            assumed=assumed,
+            error=float(found["error [rad/s]"]),
         ),
         alt="Largest error against time a problem: the exact method at the bottom left, both "
         "networks above and to the right.",
         figure=lambda: contest_figure(_series(_entries(network)), 1e-12),
+    )
+
+
+@memo()
+def declared_networks() -> list[NetworkSettings]:
+    """Every declared form of the penalty with factors over their range, at full sharpness."""
+    forms = alternatives("patent.penalty_form", 0)
+    sharpness = alternatives("patent.penalty_sharpness", 2)[1]
+    low, high = (np.log10(end) for end in alternatives("patent.penalty_factor", 2))
+    return [
+        NetworkSettings(penalty=form, factor=float(factor), sharpness=sharpness)
+        for form in forms
+        for factor in np.logspace(low, high, round(high - low) + 1)
+    ]
+
+
+def _cheapest(busy: list[int], threshold: float, cost: float) -> NetworkSettings:
+    """The network that is near on most of the problems, and among those the cheapest."""
+
+    def rank(network: NetworkSettings) -> tuple[int, float]:
+        curves, costs = network_curves(network), _network_costs(network.penalty)
+        steps = {k: first_within(curves[k], threshold) for k in busy}
+        spent = sum(n * costs[k].total(cost) for k, n in steps.items() if n is not None)
+        return sum(n is None for n in steps.values()), spent
+
+    return min(declared_networks(), key=rank)
+
+
+@memo(64)
+def network_curves(network: NetworkSettings) -> list[np.ndarray]:
+    """Errors before each step of unit gain, for every recorded problem."""
+    return [network_errors(p, network, _MOST_STEPS) for p in recorded(100)]
+
+
+@memo(64)
+def _in_a_row(network: NetworkSettings, threshold: float) -> tuple[int, float]:
+    return steps_in_a_row(busiest(IN_A_ROW), network, threshold, NEWTON_STEPS[-1])
+
+
+def _flow_times(k: int, threshold: float, gamma: float) -> tuple[float | None, float | None]:
+    """Times of the network with growing gain and of the other with a constant one, equal gamma."""
+    own, other = (first_within(curves[k], threshold) for curves in _flows())
+    return (
+        None if own is None else float(np.log1p(_FLOW[own] / gamma)),
+        None if other is None else float(_LONG_FLOW[other] / gamma),
+    )
+
+
+@memo()
+def _flows() -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Errors of both networks in continuous time; the network has the stiffest declared penalty."""
+    stiff = NetworkSettings(penalty="quadratic", factor=alternatives("patent.penalty_factor", 2)[1])
+    return (
+        [network_flow(p, stiff, _FLOW) for p in recorded(100)],
+        [primal_dual_flow(p, _LONG_FLOW) for p in recorded(100)],
     )
 
 
@@ -150,7 +232,7 @@ def _counts() -> np.ndarray:
 
 
 @memo()
-def _primal_dual_errors() -> list[np.ndarray]:
+def primal_dual_curves() -> list[np.ndarray]:
     """Errors at those numbers of iterations, for every recorded problem."""
     return [primal_dual_errors(p, _counts()) for p in recorded(100)]
 
@@ -179,8 +261,8 @@ def _entries(network: NetworkSettings) -> list[Entry]:
 
 
 def _curves(index: int, network: NetworkSettings) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    own = network_errors(recorded(100)[index], network, _MOST_STEPS)
-    other = _primal_dual_errors()[index]
+    own = network_curves(network)[index]
+    other = primal_dual_curves()[index]
     return {
         "network": (np.arange(1, len(own)), own[1:]),
         "primal-dual network": (_counts()[1:], other[1:]),

@@ -17,6 +17,7 @@ from .....control.neural.network_settings import NetworkSettings
 from .....control.neural.optimality import optimality
 from .....control.neural.penalised import code_error, state_with_error
 from .....control.settings import ControllerSettings
+from .....control.trajectory import trajectory
 from .....ledger import REGISTRY, Assumed, Bounded, NoOriginal, Result
 from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
@@ -103,9 +104,9 @@ def growing_gain(assumed: Assumed) -> Result:
     threshold, own = assumed["convergence_threshold"], assumed["gain"]
     activation = assumed["activation"]
     curves = {
-        (g, kind): _decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
+        (g, kind): decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
     }
-    found = {key: _settled(errors, threshold) for key, errors in curves.items()}
+    found = {key: settled(errors, threshold) for key, errors in curves.items()}
     ceiling = gain_ceiling(activation)
     unstable = {g: divergence_time(g, CONTROL_STEP) for g in GAINS}
     drawn = {
@@ -146,7 +147,7 @@ def gain_ceiling(activation: str) -> float:
     return 1.0 / (CONTROL_STEP * (slope if 0.0 < slope < np.inf else 1.0))
 
 
-def _decay(activation: str, gamma: float, kind: str) -> np.ndarray:
+def decay(activation: str, gamma: float, kind: str) -> np.ndarray:
     """|F|_inf before every explicit step on the problem that stands still."""
     network, p = NetworkSettings(activation=activation), sample_problem()
     numbers, ceiling = network.numbers(), gain_ceiling(activation)
@@ -165,7 +166,7 @@ def _decay(activation: str, gamma: float, kind: str) -> np.ndarray:
     return np.array(errors)
 
 
-def _settled(errors: np.ndarray, threshold: float) -> float:
+def settled(errors: np.ndarray, threshold: float) -> float:
     """When the error is below the threshold for good; the horizon if it is not [s]."""
     above = np.flatnonzero(~(errors <= threshold))
     steps = int(above[-1]) + 1 if len(above) else 0
@@ -262,6 +263,7 @@ def integration(assumed: Assumed) -> Result:
             "distance": motion.smallest_distance,
         },
         measured={"evaluations": evaluations, "tip_error": motion.largest_error},
+        table=trajectory(scenario.system, scenario.circles, motion),
         caption=caption(
             "eq_integration",
             integrator=assumed["integrator"],

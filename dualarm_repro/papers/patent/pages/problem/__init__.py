@@ -1,5 +1,5 @@
 """The problem at each instant: the method and its steps, velocities, the quadratic programme."""
 
-from . import method, program, velocities
+from . import energy, method, program, velocities
 
-__all__ = ["method", "program", "velocities"]
+__all__ = ["energy", "method", "program", "velocities"]

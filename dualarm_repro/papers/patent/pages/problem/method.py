@@ -11,10 +11,12 @@ import numpy as np
 import pandas as pd
 
 from .....control import assembly, avoidance, kinematics
-from .....control.instrument import Instrument
 from .....control.neural import fixed_step, network, optimality, penalty
 from .....control.neural.network_settings import NetworkSettings
+from .....control.readings import Readings
 from .....control.settings import ControllerSettings
+from .....control.simulate import UNDISTURBED
+from .....instrument import Instrument
 from .....ledger import REGISTRY, Assumed, Is, NoOriginal, Result
 from .....ledger.captions import captions
 from .....tracking import memo
@@ -53,11 +55,11 @@ def trace() -> tuple[str, ...]:
     """
     scenario, numbers = frozen("too_close"), ControllerSettings().numbers()
     system, instrument = scenario.system, Instrument()
-    none, size = np.empty((0, 0)), system.nq + 3 * len(system.arms)
+    size = system.nq + 3 * len(system.arms)
     instrument.twin(fixed_step.run_network)(
         *(system.arrays, numbers, NetworkSettings().numbers(CONTROL_STEP)),
         *(scenario.circles.numbers(), scenario.q0, np.zeros(size), 2, CONTROL_STEP),
-        *(none, none),
+        *(Readings.of(system), UNDISTURBED),
     )
     return tuple(instrument.returned)
 

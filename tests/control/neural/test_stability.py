@@ -1,0 +1,67 @@
+"""The steps of the proof of convergence, the integral, and single precision."""
+
+import numpy as np
+import pytest
+
+from dualarm_repro.control.neural.activation import Activation
+from dualarm_repro.control.neural.continuous import integrate_network
+from dualarm_repro.control.neural.fixed_step import simulate_network
+from dualarm_repro.control.neural.network_settings import NetworkSettings
+from dualarm_repro.control.neural.penalty import Penalty
+from dualarm_repro.control.neural.single_precision import simulate_in_single_precision
+from dualarm_repro.control.neural.stability import odd_and_increasing, proof_steps
+from dualarm_repro.control.problem import QuadraticProgram
+from dualarm_repro.control.settings import ControllerSettings
+from dualarm_repro.errors import InputError
+
+from ..conftest import random_problem
+
+
+@pytest.mark.parametrize("form", list(Activation))
+def test_every_activation_is_odd_and_increasing(form):
+    odd, increase = odd_and_increasing(form)
+    assert odd < 1e-12
+    assert increase >= 0.0
+
+
+@pytest.mark.parametrize("form", list(Penalty))
+def test_the_matrix_is_regular_with_as_many_negative_eigenvalues_as_equalities(form):
+    rng = np.random.default_rng(4)
+    p, network = random_problem(rng), NetworkSettings(penalty=form, factor=10.0, sharpness=1.0)
+    for _ in range(10):
+        found = proof_steps(p, network, 0.1 * rng.normal(size=p.size + len(p.b)))
+        assert found.least_eigenvalue >= 1.0 - 1e-9
+        assert found.least_singular > 0.0
+        assert found.negative == len(p.b)
+
+
+def test_without_full_rank_it_is_singular():
+    p = random_problem(np.random.default_rng(4))
+    A, b = np.vstack([p.A, p.A[:1]]), np.append(p.b, p.b[0])
+    twice = QuadraticProgram(p.target, A, b, p.G, p.h, p.lower, p.upper)
+    found = proof_steps(twice, NetworkSettings(), np.zeros(p.size + len(b)))
+    assert found.least_singular_task < 1e-12
+    assert found.least_singular < 1e-9
+
+
+def test_the_integral_takes_out_a_constant_push(crossing):
+    steps, size = 10_000, crossing.system.nq + 6
+    push = np.tile(0.1 * np.ones(size), (steps, 1))
+    late = {}
+    for integral in (0.0, 1e3):
+        network = NetworkSettings(integral=integral)
+        motion = simulate_network(*crossing.parts, ControllerSettings(), network, disturbance=push)
+        late[integral] = np.median(motion.error[steps // 2 :].max(axis=1))
+    assert late[1e3] < 0.5 * late[0.0]
+    with pytest.raises(InputError, match="integral"):
+        integrate_network(*crossing.parts, ControllerSettings(), NetworkSettings(integral=1.0))
+
+
+def test_single_precision_stays_near_double(crossing):
+    runs = [
+        go(*crossing.parts, ControllerSettings(), NetworkSettings(), dt=2e-2)
+        for go in (simulate_network, simulate_in_single_precision)
+    ]
+    apart = np.abs(runs[0].q - runs[1].q).max()
+    assert 0.0 < apart < 1e-2
+    assert runs[1].largest_error == pytest.approx(runs[0].largest_error, rel=0.05)
