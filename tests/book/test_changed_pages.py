@@ -45,7 +45,11 @@ class Book:
                 outdir=str(self.folder / out),
                 doctreedir=str(self.folder / f"{out}-trees"),
                 buildername="html",
-                confoverrides={"extensions": ["myst_parser"], "html_theme": "basic"},
+                confoverrides={
+                    "extensions": ["myst_parser"],
+                    "html_theme": "basic",
+                    "source_suffix": {".md": "markdown"},  # else the default is changed for all
+                },
                 status=None,
                 warning=None,
             )
