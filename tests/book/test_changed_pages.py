@@ -124,6 +124,18 @@ def test_what_concerns_all_pages_makes_all_be_read(book, what):
     assert book.build() == {"index", "a", "b"}
 
 
+def test_a_page_of_what_no_longer_exists_goes(book):
+    left = book.folder / "out" / "left.html"
+    left.write_text("of a module that is gone")
+    book.build()
+    assert left.exists()
+    (book.folder / "library" / "new.py").write_text("")
+    book.build()
+    assert not left.exists()
+    book.build("fresh")
+    assert book.html() == book.html("fresh")
+
+
 def test_a_warning_comes_again_until_it_is_mended(book):
     book.write("b.md", "# Second\n\n{doc}`nowhere`\n")
     book.build(warns=True)

@@ -2,7 +2,8 @@
 
 Sphinx sees that the text of a page has changed. It does not see that the cells of a page compute
 something else now (``tools/prerun.py`` keeps a key for each page), that an extension or the lock of
-the environment is another one, nor that a page shows the title, a label or an entry of the contents
+the environment is another one (then nothing that was built before is kept, so that no page of what
+no longer exists remains), nor that a page shows the title, a label or an entry of the contents
 of a page that changed. After a build that did not succeed, everything is read again, so that its
 warnings come again.
 """
@@ -13,6 +14,7 @@ import json
 from collections.abc import Iterable
 from hashlib import sha256
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 from sphinx.application import Sphinx
@@ -49,6 +51,9 @@ class ChangedPages:
             self.before = {}
         kept.unlink(missing_ok=True)
         self.now = {"common": self._common_digest(), "pages": self._page_keys(app)}
+        if self.before.get("common") != self.now["common"]:
+            rmtree(app.outdir, ignore_errors=True)
+            Path(app.outdir).mkdir(parents=True)
 
     def outdated(self, app: Sphinx, env: BuildEnvironment, *others: set[str]) -> set[str]:
         """Names of the pages to read again beside those whose text has changed.
@@ -104,7 +109,7 @@ def _digest(value: Any) -> str:
 
 def connect(app: Sphinx, pages: ChangedPages) -> None:
     """Let Sphinx ask what is outdated."""
-    app.connect("builder-inited", pages.begin)
+    app.connect("builder-inited", pages.begin, priority=100)  # before others write there
     app.connect("env-get-outdated", pages.outdated)
     app.connect("env-updated", pages.touched)
     app.connect("build-finished", pages.finish)
@@ -113,7 +118,8 @@ def connect(app: Sphinx, pages: ChangedPages) -> None:
 def setup(app: Sphinx) -> dict[str, Any]:
     """Entry point of Sphinx."""
     root = Path(__file__).resolve().parents[2]
-    common = [Path(__file__).parent, root / "requirements.lock"]
+    items = root / "data" / "papers" / "inventory.csv"
+    common = [Path(__file__).parent, root / "requirements.lock", items]
     pages = ChangedPages(
         root / "_build" / ".jupyter_cache" / "pages.json", common, root / "dualarm_repro"
     )
