@@ -20,6 +20,8 @@ from typing import Any
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 
+from dualarm_repro.ledger.closure import hash_file
+
 #: Beside the pages that Sphinx has read: what the last successful build knew.
 _KEPT = "changed_pages.json"
 
@@ -43,7 +45,10 @@ class ChangedPages:
         self.now: dict[str, Any] = {}
 
     def begin(self, app: Sphinx) -> None:
-        """Take what the last successful build knew, and leave nothing until this one succeeds."""
+        """Take what the last successful build knew, and keep nothing until this one succeeds.
+
+        Where what concerns all pages has changed, nothing that was built is kept either.
+        """
         kept = Path(app.doctreedir, _KEPT)
         try:
             self.before = json.loads(kept.read_text(encoding="utf-8"))
@@ -69,14 +74,16 @@ class ChangedPages:
     def touched(self, app: Sphinx, env: BuildEnvironment) -> set[str]:
         """Names of all pages if one of them now tells another page something else."""
         self.now["told"] = _told(env)
+        return set() if self.before.get("told") == self.now["told"] else set(env.all_docs)
+
+    def restore(self, app: Sphinx, env: BuildEnvironment) -> None:
+        """Give the search the index entries of pages not written again, which it forgets."""
         for name, entries in self.before.get("entries", {}).items():
             env._search_index_index_entries.setdefault(name, entries)
-        return set() if self.before.get("told") == self.now["told"] else set(env.all_docs)
 
     def finish(self, app: Sphinx, failure: Exception | None) -> None:
         """Keep what this build knew if it succeeded."""
         if failure is None and not app._warncount:
-            # the search forgets the index entries of what it does not read again
             self.now["entries"] = app.env._search_index_index_entries
             Path(app.doctreedir, _KEPT).write_text(json.dumps(self.now), encoding="utf-8")
 
@@ -84,7 +91,7 @@ class ChangedPages:
         paths = (path.rglob("*.py") if path.is_dir() else [path] for path in self.common)
         found = sorted(path for several in paths for path in several)
         modules = sorted(str(p.relative_to(self.library)) for p in self.library.rglob("*.py"))
-        return _digest([modules, *([path.name, path.read_bytes().hex()] for path in found)])
+        return _digest([modules, *([path.name, hash_file(path)] for path in found)])
 
     def _page_keys(self, app: Sphinx) -> dict[str, str]:
         try:
@@ -112,6 +119,7 @@ def connect(app: Sphinx, pages: ChangedPages) -> None:
     app.connect("builder-inited", pages.begin, priority=100)  # before others write there
     app.connect("env-get-outdated", pages.outdated)
     app.connect("env-updated", pages.touched)
+    app.connect("env-updated", pages.restore)
     app.connect("build-finished", pages.finish)
 
 
