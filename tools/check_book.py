@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Mapping
+from functools import cache
 from html import unescape
 from pathlib import Path
 from posixpath import dirname, join, normpath
@@ -15,6 +16,7 @@ from typing import Any
 import external_loads
 import pandas as pd
 from lxml import html as markup
+from lxml.cssselect import CSSSelector
 from prerun import ROOT, notebooks, toc_pages
 
 Pages = Mapping[str, markup.HtmlElement]
@@ -40,8 +42,17 @@ def read_pages(html: Path) -> dict[str, markup.HtmlElement]:
     }
 
 
-def _ids(page: markup.HtmlElement) -> list[str]:
-    return [str(found) for found in page.xpath("//@id")]
+#: A selector is compiled once, which takes longer than most of its uses.
+_compiled = cache(CSSSelector)
+
+
+def _select(element: markup.HtmlElement, selector: str) -> list[markup.HtmlElement]:
+    return list(_compiled(selector)(element))
+
+
+@cache
+def _ids(page: markup.HtmlElement) -> tuple[str, ...]:
+    return tuple(tag.get("id") for tag in page.iter() if tag.get("id") is not None)
 
 
 def _block(pages: Pages, page: str, anchor: str) -> markup.HtmlElement | None:
@@ -87,7 +98,7 @@ def wrong_cards(
     if block is None:
         return [f"{page}: no card of {made['id']}"]
     lines = []
-    if not block.cssselect(f".verdict-{made['verdict']}"):
+    if not _select(block, f".verdict-{made['verdict']}"):
         lines.append(f"{page}: the card of {made['id']} does not show {made['verdict']}")
     shown = _words(block)
     for text in texts:
@@ -129,7 +140,7 @@ def broken_links(pages: Pages, html: Path) -> list[str]:
     ids = {name: set(_ids(content)) for name, content in pages.items()}
     lines = []
     for name, content in pages.items():
-        for link in content.cssselect(_OUR_LINKS):
+        for link in _select(content, _OUR_LINKS):
             address, _, anchor = link.get("href").partition("#")
             path = normpath(join(dirname(name), address)) if address else f"{name}.html"
             target = path.removesuffix(".html")
@@ -155,8 +166,8 @@ def faulty_scenes(pages: Pages) -> list[str]:
     """3-D scenes without a picture for paper and readers without scripts, or too large."""
     lines = []
     for name, content in pages.items():
-        for scene in content.cssselect("figure.ledger-scene"):
-            size, stills = len(markup.tostring(scene)), scene.cssselect("img.scene-still")
+        for scene in _select(content, "figure.ledger-scene"):
+            size, stills = len(markup.tostring(scene)), _select(scene, "img.scene-still")
             if not stills or not stills[0].get("src", "").startswith("data:image/"):
                 lines.append(f"{name}: a scene without a still picture")
             if size > LARGEST_SCENE:
@@ -166,7 +177,7 @@ def faulty_scenes(pages: Pages) -> list[str]:
 
 def not_executed(pages: Pages, page: str, expected: Iterable[str]) -> list[str]:
     """Notebooks that the table of executions on ``page`` does not report as run to the end."""
-    rows = pages[page].cssselect("table tr") if page in pages else []
+    rows = _select(pages[page], "table tr") if page in pages else []
     cells = [[cell.text_content().strip() for cell in row.iter("td")] for row in rows]
     done = {row[0] for row in cells if row and row[-1] == _DONE}
     return [f"{name}: a notebook that was not executed" for name in expected if name not in done]
@@ -177,21 +188,21 @@ def failed_outputs(pages: Pages) -> list[str]:
     lines = [
         f"{name}: an output shows {text!r}"
         for name, content in pages.items()
-        for output in content.cssselect(".cell_output")
+        for output in _select(content, ".cell_output")
         for text in _FAILURES
         if text in _said(output)
     ]
     return lines + [
         f"{name}: {message.text_content()!r}"
         for name, content in pages.items()
-        for message in content.cssselect(".system-message, .problematic")
+        for message in _select(content, ".system-message, .problematic")
     ]
 
 
 def _said(output: Any) -> str:
     """Text of an output but for verdicts in words, one of which says "not found"."""
     text = output.text_content()
-    for verdicts in output.cssselect(_VERDICTS):
+    for verdicts in _select(output, _VERDICTS):
         text = text.replace(verdicts.text_content(), "")
     return text
 

@@ -24,7 +24,7 @@ def results(
     jobs
         Worker processes on this machine.
     scheduler
-        Address of a Dask scheduler ("tcp://host:8786") whose workers compute instead.
+        Address of a Dask scheduler (``tcp://host:8786``) whose workers compute instead.
 
     Raises
     ------

@@ -20,6 +20,7 @@ from .style import PALETTE
 #: Joint step between two link checks [rad].
 CHECK_STEP = 0.01
 _OBSTACLE = "#9A9A9A"
+_COMPARED = ("arrive", "steps", "smallest distance [m]", "between")
 
 
 def plan_summary(plan: AnyPlan) -> dict[str, Any]:
@@ -58,16 +59,19 @@ def compare_methods(path: str | Path) -> pd.DataFrame:
         try:
             plan = plan_file(path, name)
         except UnsupportedArmError as refusal:
-            rows[name] = {"arrive": f"not for these arms ({refusal})"}
+            rows[name] = dict.fromkeys(_COMPARED, "") | {
+                "arrive": f"not for these arms ({refusal})"
+            }
             continue
         links = plan.links(CHECK_STEP)
-        rows[name] = {
-            "arrive": ", ".join(arm for arm, one in plan.plans.items() if one.reached) or "none",
-            "steps": max(one.steps for one in plan.plans.values()),
-            "smallest distance [m]": round(links.minimum, 4),
-            "between": " - ".join(links.nearest[0]) if links.pairs else "",
-        }
-    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method").fillna("")
+        found = (
+            ", ".join(arm for arm, one in plan.plans.items() if one.reached) or "none",
+            max(one.steps for one in plan.plans.values()),
+            round(links.minimum, 4),
+            " - ".join(links.nearest[0]) if links.pairs else "",
+        )
+        rows[name] = dict(zip(_COMPARED, found, strict=True))
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
 
 
 def plan_page(plan: AnyPlan, title: str) -> Page:

@@ -65,7 +65,7 @@ def tip_path_figure(
             for marker, point in zip("xPD*", panel.marks.values(), strict=False):
                 ax.plot(*np.atleast_2d(point).T, marker, color=BLACK, ms=8, ls="none", zorder=6)
             _keep_wide(ax)
-            ax.set_title(panel.title)
+            ax.set_title(panel.title, pad=22)  # above names that stand over the arm
             same_scale(ax, zoom=1.05)
         if handles:
             handles["path begins"] = _sign("o", mfc="white", mew=1.6)

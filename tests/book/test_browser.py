@@ -48,6 +48,8 @@ STAGES = {
     "moves": SCENE.format(moves="yes", paint=RED.format(x="k % 5 * 15")),
     "stands": SCENE.format(moves="yes", paint=RED.format(x=10)),
     "still": SCENE.format(moves="no", paint=RED.format(x=10)),
+    "dark": SCENE.format(moves="no", paint=RED.format(x=10).replace("#d00", "#5f6468")),
+    "pale grey": SCENE.format(moves="no", paint=RED.format(x=10).replace("#d00", "#b0b0b0")),
     "blank": SCENE.format(moves="no", paint=""),
     "paused": SCENE.format(moves="yes", paint="k -= !play.playing;" + RED.format(x="k % 5 * 15")),
 }
@@ -121,6 +123,7 @@ def test_a_healthy_page_has_no_problem(found):
         ("written", "scripts", "words without scripts"),
         ("stands", "scenes", "stands still"),
         ("blank", "scenes", "draws nothing"),
+        ("pale grey", "scenes", "draws nothing"),
     ],
 )
 def test_each_problem_is_seen(found, page, check, text):
@@ -129,7 +132,8 @@ def test_each_problem_is_seen(found, page, check, text):
 
 
 def test_scenes_that_draw_and_move_are_no_problem(found):
-    assert [problems(found, name) for name in ("moves", "still", "paused")] == [{}, {}, {}]
+    drawn = ("moves", "still", "paused", "dark")
+    assert [problems(found, name) for name in drawn] == [{}] * len(drawn)
 
 
 def test_numbers_are_searched_for_as_the_index_has_them(html):

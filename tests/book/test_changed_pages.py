@@ -45,7 +45,11 @@ class Book:
                 outdir=str(self.folder / out),
                 doctreedir=str(self.folder / f"{out}-trees"),
                 buildername="html",
-                confoverrides={"extensions": ["myst_parser"], "html_theme": "basic"},
+                confoverrides={
+                    "extensions": ["myst_parser"],
+                    "html_theme": "basic",
+                    "source_suffix": {".md": "markdown"},  # else the default is changed for all
+                },
                 status=None,
                 warning=None,
             )
@@ -118,6 +122,18 @@ def test_what_concerns_all_pages_makes_all_be_read(book, what):
     else:
         book.keys.unlink()
     assert book.build() == {"index", "a", "b"}
+
+
+def test_a_page_of_what_no_longer_exists_goes(book):
+    left = book.folder / "out" / "left.html"
+    left.write_text("of a module that is gone")
+    book.build()
+    assert left.exists()
+    (book.folder / "library" / "new.py").write_text("")
+    book.build()
+    assert not left.exists()
+    book.build("fresh")
+    assert book.html() == book.html("fresh")
 
 
 def test_a_warning_comes_again_until_it_is_mended(book):

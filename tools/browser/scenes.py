@@ -17,10 +17,10 @@ from .visit import visit
 SCENES = "figure.ledger-scene"
 #: A small screen, since scenes are drawn without a graphics card here.
 STAGE = {"width": 400, "height": 400}
-#: Share of the pixels of a scene that have to be coloured; ground and grid are grey and pale.
+#: Share of the pixels of a scene that have to be coloured or dark; ground and grid are pale greys.
 LEAST_DRAWN = 0.005
-#: A pixel is coloured if its channels are so far apart, of 255.
-COLOURED = 60
+#: A pixel is coloured if its channels are so far apart, of 255, and dark if none is brighter.
+COLOURED, DARK = 60, 128
 #: Milliseconds between two looks, and looks until a scene counts as still or blank.
 APART, LOOKS = 400, 40
 _SPARED = """(() => {
@@ -85,17 +85,18 @@ async def picture(scene: Locator) -> str:
 
 
 def pixels(address: str) -> np.ndarray:
-    """Pixels (height, width, 3) of a picture, one black pixel if there is none."""
+    """Pixels (height, width, 3) of a picture, one white pixel if there is none."""
     data = b64decode(address.partition(",")[2])
     if not data:
-        return np.zeros((1, 1, 3), dtype=int)
+        return np.full((1, 1, 3), 255)
     return np.asarray(Image.open(BytesIO(data)).convert("RGB")).astype(int)
 
 
 def drawn(found: np.ndarray) -> bool:
     """Whether there is more than an empty stage."""
-    spread = found.max(axis=2) - found.min(axis=2)
-    return float((spread > COLOURED).mean()) >= LEAST_DRAWN
+    brightest = found.max(axis=2)
+    seen = (brightest - found.min(axis=2) > COLOURED) | (brightest < DARK)
+    return float(seen.mean()) >= LEAST_DRAWN
 
 
 def differs(first: np.ndarray, second: np.ndarray) -> bool:

@@ -2,7 +2,8 @@
 
 Sphinx sees that the text of a page has changed. It does not see that the cells of a page compute
 something else now (``tools/prerun.py`` keeps a key for each page), that an extension or the lock of
-the environment is another one, nor that a page shows the title, a label or an entry of the contents
+the environment is another one (then nothing that was built before is kept, so that no page of what
+no longer exists remains), nor that a page shows the title, a label or an entry of the contents
 of a page that changed. After a build that did not succeed, everything is read again, so that its
 warnings come again.
 """
@@ -13,10 +14,13 @@ import json
 from collections.abc import Iterable
 from hashlib import sha256
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
+
+from dualarm_repro.ledger.closure import hash_file
 
 #: Beside the pages that Sphinx has read: what the last successful build knew.
 _KEPT = "changed_pages.json"
@@ -41,7 +45,10 @@ class ChangedPages:
         self.now: dict[str, Any] = {}
 
     def begin(self, app: Sphinx) -> None:
-        """Take what the last successful build knew, and leave nothing until this one succeeds."""
+        """Take what the last successful build knew, and keep nothing until this one succeeds.
+
+        Where what concerns all pages has changed, nothing that was built is kept either.
+        """
         kept = Path(app.doctreedir, _KEPT)
         try:
             self.before = json.loads(kept.read_text(encoding="utf-8"))
@@ -49,6 +56,9 @@ class ChangedPages:
             self.before = {}
         kept.unlink(missing_ok=True)
         self.now = {"common": self._common_digest(), "pages": self._page_keys(app)}
+        if self.before.get("common") != self.now["common"]:
+            rmtree(app.outdir, ignore_errors=True)
+            Path(app.outdir).mkdir(parents=True)
 
     def outdated(self, app: Sphinx, env: BuildEnvironment, *others: set[str]) -> set[str]:
         """Names of the pages to read again beside those whose text has changed.
@@ -64,14 +74,16 @@ class ChangedPages:
     def touched(self, app: Sphinx, env: BuildEnvironment) -> set[str]:
         """Names of all pages if one of them now tells another page something else."""
         self.now["told"] = _told(env)
+        return set() if self.before.get("told") == self.now["told"] else set(env.all_docs)
+
+    def restore(self, app: Sphinx, env: BuildEnvironment) -> None:
+        """Give the search the index entries of pages not written again, which it forgets."""
         for name, entries in self.before.get("entries", {}).items():
             env._search_index_index_entries.setdefault(name, entries)
-        return set() if self.before.get("told") == self.now["told"] else set(env.all_docs)
 
     def finish(self, app: Sphinx, failure: Exception | None) -> None:
         """Keep what this build knew if it succeeded."""
         if failure is None and not app._warncount:
-            # the search forgets the index entries of what it does not read again
             self.now["entries"] = app.env._search_index_index_entries
             Path(app.doctreedir, _KEPT).write_text(json.dumps(self.now), encoding="utf-8")
 
@@ -79,7 +91,7 @@ class ChangedPages:
         paths = (path.rglob("*.py") if path.is_dir() else [path] for path in self.common)
         found = sorted(path for several in paths for path in several)
         modules = sorted(str(p.relative_to(self.library)) for p in self.library.rglob("*.py"))
-        return _digest([modules, *([path.name, path.read_bytes().hex()] for path in found)])
+        return _digest([modules, *([path.name, hash_file(path)] for path in found)])
 
     def _page_keys(self, app: Sphinx) -> dict[str, str]:
         try:
@@ -104,16 +116,18 @@ def _digest(value: Any) -> str:
 
 def connect(app: Sphinx, pages: ChangedPages) -> None:
     """Let Sphinx ask what is outdated."""
-    app.connect("builder-inited", pages.begin)
+    app.connect("builder-inited", pages.begin, priority=100)  # before others write there
     app.connect("env-get-outdated", pages.outdated)
     app.connect("env-updated", pages.touched)
+    app.connect("env-updated", pages.restore)
     app.connect("build-finished", pages.finish)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Entry point of Sphinx."""
     root = Path(__file__).resolve().parents[2]
-    common = [Path(__file__).parent, root / "requirements.lock"]
+    items = root / "data" / "papers" / "inventory.csv"
+    common = [Path(__file__).parent, root / "requirements.lock", items]
     pages = ChangedPages(
         root / "_build" / ".jupyter_cache" / "pages.json", common, root / "dualarm_repro"
     )

@@ -47,9 +47,18 @@ def skip(app: Sphinx, what: str, name: str, obj: Any, skipped: bool, options: An
     return True if (getattr(obj, "__doc__", None) or "").startswith(_FIELD) else None
 
 
+def forget_sourceless(app: Sphinx) -> list[Any]:
+    """Leave modules without a page of their source, such as ``builtins``, out of their list."""
+    modules = getattr(app.env, "_viewcode_modules", {})
+    for name in [name for name, found in modules.items() if not found]:
+        del modules[name]
+    return []
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Entry point of Sphinx."""
     app.add_directive("room", Room)
     app.connect("autodoc-process-docstring", adapt)
     app.connect("autodoc-skip-member", skip)
+    app.connect("html-collect-pages", forget_sourceless, priority=400)  # before that list is made
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

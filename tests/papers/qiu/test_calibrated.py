@@ -90,8 +90,8 @@ def test_both_readings_are_named():
 
 def test_a_witness_holds_only_within_the_tolerance():
     table = pd.DataFrame({"error": [np.nan, 0.03, 0.015]})
-    assert fit_witness(table)[0]["verdict"] == "holds"
-    assert fit_witness(table[:2])[0]["verdict"] == "fails"
+    assert fit_witness(table, 0.02)[0]["verdict"] == "holds"
+    assert fit_witness(table[:2], 0.02)[0]["verdict"] == "fails"
     assert fit_witness(table[:2], np.inf)[0]["verdict"] == "holds"
 
 

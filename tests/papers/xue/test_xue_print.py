@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from dualarm_repro.ledger import Verdict, evaluate
+from dualarm_repro.papers.xue import stored
 from dualarm_repro.papers.xue.document import table_counts, text_counts
 from dualarm_repro.papers.xue.pages.potentials import improved, printed_field, traditional
 from dualarm_repro.papers.xue.pages.table2 import statements as inverse_calls
@@ -119,7 +120,7 @@ def test_goals_printed_as_angles_need_no_inverse(registry, reprint):
 def test_a_cartesian_field_is_hard_to_apply_if_it_mostly_fails(
     registry, monkeypatch, share, verdict
 ):
-    table = inverse_calls.lottery_table().copy()
+    table = stored.lottery_table().copy()
     table["cartesian_ik_missed"] = (share * table["cartesian_ik_runs"]).astype(int)
-    monkeypatch.setattr(inverse_calls, "lottery_table", lambda: table)
+    monkeypatch.setattr(stored, "lottery_table", lambda: table)
     assert evaluate(registry, "xue.claim_no_ik").verdict is verdict
