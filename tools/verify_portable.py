@@ -3,7 +3,8 @@
 Compiled kernels, numpy, OpenBLAS and the C library choose their code by the processor they find.
 Each setting takes one of these choices away, `everything` all of them, and `fused` lets the kernels
 fuse multiplications with additions. Items are computed in a process of their own and compared with
-data/results, as `dualarm verify` does. ``--spread`` lists what moves at all.
+data/results, as `dualarm verify` does; so are some cells of every stored study. ``--spread`` lists
+what moves at all.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ COMBINED = "everything"
 SEED = 20200344
 #: Items of the short form, besides those that declare a tolerance.
 SAMPLE = 20
+#: Cells of every stored study that each setting computes again, and those of the short form.
+CELLS, SHORT_CELLS = 5, 1
 #: Values that move by more than this, relative, are worth a look even where nothing drifts.
 SPREAD = 1e-8
 
@@ -50,8 +53,12 @@ def run(setting: Setting, arguments: Sequence[str], scratch: Path) -> subprocess
     return subprocess.run([sys.executable, *arguments], env=environment, cwd=ROOT, check=False)
 
 
-def outcomes(setting: Setting, item_ids: Sequence[str], scratch: Path) -> dict[str, Any]:
-    """Outcomes of items under a setting; ``machine`` says what the process really used.
+def outcomes(
+    setting: Setting, item_ids: Sequence[str], scratch: Path, cells: int = CELLS
+) -> dict[str, Any]:
+    """Outcomes of items, and cells of studies that came out otherwise, under a setting.
+
+    ``machine`` says what the process really used.
 
     Raises
     ------
@@ -59,7 +66,7 @@ def outcomes(setting: Setting, item_ids: Sequence[str], scratch: Path) -> dict[s
         The process failed.
     """
     made = scratch / f"{setting.name}.json"
-    done = run(setting, [str(_OUTCOMES), str(made), *item_ids], scratch)
+    done = run(setting, [str(_OUTCOMES), str(made), str(cells), *item_ids], scratch)
     if done.returncode or not made.is_file():
         raise RuntimeError(f"{setting.name}: the process ended with {done.returncode}")
     return json.loads(made.read_text(encoding="utf-8"))
@@ -118,16 +125,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--setting", action="append", help="only this one; may be repeated")
     parser.add_argument("--spread", type=Path, help="write the values that move to this JSON file")
     parser.add_argument("--tests", action="store_true", help=f"then the tests under `{COMBINED}`")
+    parser.add_argument("--cells", type=int, help=f"of every stored study, default {CELLS}")
     given = parser.parse_args(arguments)
     chosen = {setting.name: setting for setting in settings()}
     wanted = [COMBINED] if given.short else given.setting or list(chosen)
     if unknown := set(wanted) - set(chosen):
         parser.error(f"no setting {sorted(unknown)} here; there are {', '.join(chosen)}")
     ids = given.ids or (sample() if given.short else list(load().items))
+    usual = SHORT_CELLS if given.short else CELLS
+    cells = usual if given.cells is None else given.cells
     failed, runs = False, {}
     with tempfile.TemporaryDirectory() as folder:
         for name in wanted:
-            failed |= not _report(chosen[name], ids, Path(folder), runs)
+            failed |= not _report(chosen[name], ids, Path(folder), runs, cells)
         if given.tests:
             failed |= bool(run(chosen[COMBINED], _TESTS, Path(folder)).returncode)
     if given.spread:
@@ -135,20 +145,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return int(failed)
 
 
-def _report(setting: Setting, ids: Sequence[str], scratch: Path, runs: dict[str, Any]) -> bool:
+def _report(
+    setting: Setting, ids: Sequence[str], scratch: Path, runs: dict[str, Any], cells: int
+) -> bool:
     """Print one setting; whether it took effect and nothing moved."""
-    made = outcomes(setting, ids, scratch)
+    made = outcomes(setting, ids, scratch, cells)
     runs[setting.name] = made["items"]
     without_effect = setting.without_effect(made["machine"])
     drifted, changed = compare(made["items"])
-    for line in [*without_effect, *drifted, *changed]:
+    for line in [*without_effect, *drifted, *changed, *made["wrong"]]:
         print(f"  {setting.name}: {line}")
     print(
         f"{setting.name:14s} {len(made['items']):4d} checked, {len(drifted):3d} drifted, "
-        f"{len(changed):3d} verdicts changed",
+        f"{len(changed):3d} verdicts changed; {made['cells']:3d} cells of studies, "
+        f"{len(made['wrong']):d} otherwise",
         flush=True,
     )
-    return not (without_effect or drifted or changed)
+    return not (without_effect or drifted or changed or made["wrong"])
 
 
 if __name__ == "__main__":

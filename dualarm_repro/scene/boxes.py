@@ -93,7 +93,7 @@ def shortest_exit(a, u, h):
             depth, direction, axis = h[k] - low, unit(k, 1.0), k
         if h[k] + high < depth:
             depth, direction, axis = h[k] + high, unit(k, -1.0), k
-    for k in range(3):
+    for k in range(3):  # edges of the box crossed with u
         m = cross(unit(k, 1.0), u)
         length = dot(m, m) ** 0.5
         if length == 0.0:

@@ -16,7 +16,7 @@ PARTS = [name for name in SETTINGS if name not in ("nominal", "everything")]
 @pytest.fixture
 def machine(tmp_path):
     """The machine code that a process under a setting reports, with no item computed."""
-    return lambda name: verify_portable.outcomes(SETTINGS[name], [], tmp_path)["machine"]
+    return lambda name: verify_portable.outcomes(SETTINGS[name], [], tmp_path, 0)["machine"]
 
 
 def test_nominal_is_this_process(machine):
@@ -52,7 +52,7 @@ def test_both_openblas_are_seen():
 def test_a_setting_without_effect_fails(monkeypatch, capsys):
     idle = Setting("idle", {}, {"numpy": machine_code.probe()["numpy"]})
     monkeypatch.setattr(verify_portable, "settings", lambda: [idle])
-    assert verify_portable.main(["xue.eq01"]) == 1
+    assert verify_portable.main(["--cells", "0", "xue.eq01"]) == 1
     out = capsys.readouterr().out
     assert "no effect on numpy" in out
     assert "1 checked,   0 drifted,   0 verdicts changed" in out
@@ -60,12 +60,21 @@ def test_a_setting_without_effect_fails(monkeypatch, capsys):
 
 def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
     moved = {"verdict": "undecidable", "obtained": None, "proofs": {}}
-    made = {"machine": {}, "items": {"xue.eq01": moved}}
+    made = {"machine": {}, "items": {"xue.eq01": moved}, "cells": 3, "wrong": []}
     monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
     assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
     out = capsys.readouterr().out
     assert "1 checked,   1 drifted,   1 verdicts changed" in out
     assert "xue.eq01: verdict" in out
+
+
+def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys):
+    made = {"machine": {}, "items": {}, "cells": 3, "wrong": ["toy cell 1: obtained.x moved"]}
+    monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
+    assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
+    out = capsys.readouterr().out
+    assert "3 cells of studies, 1 otherwise" in out
+    assert "toy cell 1" in out
 
 
 def test_the_short_sample_holds_what_is_delicate(registry):

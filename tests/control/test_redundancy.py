@@ -63,3 +63,14 @@ def kinetic_energy(system, q, x):
         model = placed.arm.model
         total += pin.computeKineticEnergy(model, model.createData(), q[part], x[part])
     return total
+
+
+def test_inertia_weighted_velocity_takes_the_whole_symmetric_inertia(system, q):
+    """A velocity of the null space is conjugate to it: n^T M x = 0, M by unit velocities."""
+    controller = VelocityController(system, pseudo_inverse(ControllerSettings()))
+    p = controller.problem(q, system.tips(q), np.array([[0.1, 0.0, 0.2], [0.0, -0.1, 0.1]]))
+    x = inertia_weighted(system, q, p)
+    null = np.eye(system.nq) - np.linalg.pinv(p.A) @ p.A
+    for n in null.T:
+        mixed = kinetic_energy(system, q, x + n) - kinetic_energy(system, q, x - n)
+        assert mixed == pytest.approx(0.0, abs=1e-12)

@@ -127,3 +127,16 @@ def test_bad_problems_are_refused(field, value):
 def test_unknown_solver():
     with pytest.raises(UnknownNameError, match="daqp"):
         solve(random_problem(np.random.default_rng(4)), "simplex")
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_multiplier_of_a_bound_that_is_not_met_counts_on_either_side(sign):
+    """Only complementarity is violated: |w| times the distance from the bound, over 1 + |w|."""
+    p = random_problem(np.random.default_rng(4), 0, 0)
+    x = 0.5 * (p.lower + p.upper)
+    w = np.zeros_like(x)
+    w[3] = 2.0 * sign
+    at = QuadraticProgram(x + w, p.A, p.b, p.G, p.h, p.lower, p.upper)
+    bound = at.upper if sign > 0 else at.lower
+    right = 2.0 * abs(bound[3] - x[3]) / 3.0
+    assert residual(at.parts, x, np.zeros(0), np.zeros(0), w) == pytest.approx(right)

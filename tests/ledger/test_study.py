@@ -187,3 +187,23 @@ def test_registered_once(toy):
     registry.keeps(toy())
     with pytest.raises(LedgerError, match="second study"):
         registry.keeps(toy())
+
+
+def test_a_certificate_is_computed_from_the_stored_row_alone(toy, tmp_path):
+    """What a search found may differ; what holds where it ended has to follow from the row."""
+    found = iter(range(10**6))
+
+    def search(settings, rng):
+        note("robots/toy.yaml")
+        place = 0.001 * settings["k"] + next(found)
+        return {"place": place, "square": place**2}
+
+    def certificate(settings, row):
+        return {"square": row["place"] ** 2}
+
+    options = {"compute": search, "measured": ("place", "square"), "nested": ()}
+    study = toy(**options, certificate=certificate)
+    study.run(jobs=1, scratch=tmp_path)
+    assert study.spot_check(5, seed=1) == []
+    wrong = toy(**options, certificate=lambda settings, row: {"square": 1.1 * row["place"] ** 2})
+    assert len(wrong.spot_check(5, seed=1)) == 5

@@ -5,6 +5,7 @@ import pytest
 from two_spheres import GOAL, START, obstacles, placed_arm, settings
 
 from dualarm_repro.errors import InputError
+from dualarm_repro.planning.search.bidirectional_arms import TwoArmSettings, spliced
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from dualarm_repro.planning.search.splice import roughness, smoothed, smoothed_directly
 from dualarm_repro.planning.search.time_map import along_path, replay, shares, time_map
@@ -62,3 +63,14 @@ def test_replay_moves_the_master_at_its_pace(plan, spread):
     kept = np.flatnonzero(np.r_[True, (np.diff(both[1], axis=0) != 0).any(axis=1)])
     assert (both[1][kept] == plan.path).all()
     assert along_path(master, np.array([0.5]))[0] == pytest.approx(0.5 * GOAL)
+
+
+def test_a_plan_is_smoothed_where_a_spline_fits_and_left_alone_where_none_does(plan):
+    chosen = TwoArmSettings(**settings().model_dump(), smoothing=1.0, end_weight=1e4)
+    smooth = spliced(plan, chosen).path
+    assert smooth == pytest.approx(smoothed(plan.path, 1.0, 1e4))
+    assert np.abs(smooth - plan.path).max() > 1e-4
+    near = START + 0.01 * (GOAL - START)
+    short = plan_bidirectional_compiled(placed_arm(), START, near, obstacles(), settings())
+    assert len(short.path) < 5
+    assert spliced(short, chosen).path == pytest.approx(short.path)

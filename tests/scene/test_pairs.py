@@ -13,9 +13,10 @@ from dualarm_repro.scene import (
     Sphere,
     clearance,
     distances,
+    pairs,
 )
 from dualarm_repro.scene.pairs import SORTS, always_overlapping
-from dualarm_repro.scene.posing import links_of
+from dualarm_repro.scene.posing import link_frames, links_of
 from examples import two_arms
 
 
@@ -134,3 +135,20 @@ def test_moving_bodies_meet_links_only():
     base = ("left/capsule_0_joint_0", "right/capsule_3_joint_3")
     assert base in pair.pairs.names  # a fixed link, yet the other one moves
     assert clearance(pair, np.zeros(6)).minimum < np.inf
+
+
+def test_overlap_is_looked_for_all_over_the_joint_limits_and_nowhere_else(monkeypatch):
+    arm, seen = load_arm("irb120"), []
+
+    def frames(chain, base, q):
+        seen.append(q)
+        return link_frames(chain, base, q)
+
+    monkeypatch.setattr(pairs, "link_frames", frames)
+    always_overlapping(arm)
+    (q,) = seen
+    assert (q >= arm.lower).all()
+    assert (q <= arm.upper).all()
+    share = (q - arm.lower) / (arm.upper - arm.lower)
+    assert (share.min(axis=0) < 0.1).all()
+    assert (share.max(axis=0) > 0.9).all()

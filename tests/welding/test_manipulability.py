@@ -190,3 +190,12 @@ def test_unknown_reading(field):
         Objective(**{field: "other"})
     with pytest.raises(UnknownNameError, match="measure"):
         tight_measure(np.ones(1), np.ones(1), "sum")
+
+
+def test_the_standard_error_of_a_sampled_volume_is_its_spread():
+    A = 0.01 * _random_ellipsoids(2, 11)
+    runs = [
+        intersection_volume_monte_carlo(A, 2000, np.random.default_rng(seed)) for seed in range(200)
+    ]
+    volumes, errors = np.array(runs).T
+    assert np.std(volumes) == pytest.approx(np.mean(errors), rel=0.2)
