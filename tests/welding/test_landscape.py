@@ -45,6 +45,8 @@ def test_extreme_positions_keep_their_rules(placement, rule):
     at = placement.jobs([found.position])
     assert at.feasible.all()
     assert found.fitness == EXTREMES[rule](at.w, placement.measures(at).system)[0]
+    again = extreme_position(placement, BOX, rule, spacing=0.3, starts=2, tolerance=0.05, known=grid)
+    assert again.position.tolist() == found.position.tolist()
 
 
 def test_no_extreme_out_of_reach(placement):
