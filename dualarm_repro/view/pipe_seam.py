@@ -64,12 +64,16 @@ def seam_figure(
             ax.set_title(f"z drawn {stretch:.0f} times larger")
         same_scale(ax, stretch=stretch)
         texts = [
-            _name_outside(ax, curve, [c for c in curves.values() if c is not curve], name, color)
-            for color, (name, curve) in zip(PALETTE[::3], curves.items(), strict=False)
+            _name_outside(ax, curve, [] if k else list(curves.values())[1:], name, color)
+            for k, (color, (name, curve)) in enumerate(
+                zip(PALETTE[::3], curves.items(), strict=False)
+            )
         ]
         for name, point in (marked or {}).items():
             ax.scatter(*point, color=BLACK, marker="x", s=36, depthshade=False)
-            texts.append(name_point(ax, point, name, (42, -7)))
+            inside = list(curves.values())[-1].mean(axis=0)
+            to, at = (proj3d.proj_transform(*p, ax.get_proj())[0] for p in (inside, point))
+            texts.append(name_point(ax, point, name, (42 * np.sign(to - at), -7)))
         push_apart(figure, texts)
     return figure
 

@@ -29,7 +29,7 @@ def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
             )
             ax.plot(generation, values.T, color=color, lw=0.5, alpha=0.4)
             median = np.median(values, axis=0)
-            ax.plot(generation, median, color=color, lw=2.2, label=f"{name}\n{median[-1]:.3g}")
+            ax.plot(generation, median, color=color, lw=2.2, label=f"{name}\n{median[-1]:.4g}")
         ax.set(xlabel="generation", ylabel=ylabel, ylim=(0, None))
         ax.margins(x=0)
         name_ends(ax)

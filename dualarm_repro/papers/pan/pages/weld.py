@@ -130,7 +130,8 @@ def sudden_turns(assumed: Assumed) -> Result:
     "pan.claim_energy",
     samples=_DRAWS,
     rules=[
-        Bounded("better", "feasible positions of a grid with less effort than the optimum", high=0)
+        Bounded("better", "feasible positions of a grid with less effort than the optimum", high=0),
+        Bounded("positions", "feasible positions of the grid", low="enough"),
     ],
 )
 def least_effort(assumed: Assumed) -> Result:
@@ -138,7 +139,7 @@ def least_effort(assumed: Assumed) -> Result:
     task = Problem.of(assumed)
     best, effort = optimum(task), EFFORTS[assumed["effort_measure"]]
     if not best.fitness:
-        return nothing_feasible("better", "share")
+        return nothing_feasible("better", "positions", "share")
     cell, placement, grid = task.job.cell(), task.placement(), surveyed(task)
     feasible = grid.fitness > 0
     parts = [effort(cell, placement.jobs(some)) for some in blocks(grid.points[feasible])]
@@ -147,6 +148,7 @@ def least_effort(assumed: Assumed) -> Result:
     return Result(
         obtained={
             "better": int((every < own).sum()),
+            "positions": len(every),
             "share": float((every < own).mean()),
             "least": float(every.min() / own),
             "fitness_there": float(scores[every.argmin()] / best.fitness),
@@ -154,7 +156,6 @@ def least_effort(assumed: Assumed) -> Result:
         caption=caption(
             "claim_energy",
             effort=assumed["effort_measure"].replace("_", " "),
-            positions=len(every),
             correlation=float(np.corrcoef(scores, every)[0, 1]) if len(every) > 1 else None,
         ),
     )
