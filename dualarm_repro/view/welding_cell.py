@@ -75,7 +75,8 @@ def cell_figure(
         name_point(close, centre + cell.references[WELDER, index], "torch", (0, 16))
         for k in range(WELDER):
             flange, end = _skeleton(cell, k, q[k, index])[-1], _grip(cell, k, q, index)
-            name_point(close, 0.5 * (flange + end), "gripper", (34 if flange[0] > end[0] else -34, 0))
+            aside = 34 if flange[0] > end[0] else -34
+            name_point(close, 0.5 * (flange + end), "gripper", (aside, 0))
     return figure
 
 

@@ -103,7 +103,7 @@ def test_the_exported_weld_is_a_turn_at_one_pace(pan, optimum):
     assert np.allclose(table["time [s]"], table["seam [m]"] / pace)
     dense = Seam(job.of["radius_main"], job.of["radius_branch"], 100 * job.count).p
     ways = np.linalg.norm(np.diff(dense, axis=0, append=dense[:1]), axis=1).cumsum()
-    assert table["seam [m]"][1:] == pytest.approx(ways[99::100], rel=1e-4)
+    assert table["seam [m]"][1:] == pytest.approx(ways[99::100], abs=1e-5)
     for k, owner in enumerate(OWNERS):
         last = [np.radians(table[f"{owner} q{j} [deg]"][-1]) for j in range(1, 7)]
         turns = (np.array(last) - q[k][0]) / (2 * np.pi)

@@ -257,7 +257,7 @@ def test_a_wrist_that_leaves_the_reach_between_two_points_is_out_of_reach():
 
 
 def test_a_step_past_a_singularity_is_no_path():
-    """Through an aligned wrist a smooth motion of the flange needs joint 4 to turn by pi at once."""
+    """Through an aligned wrist a smooth motion of the flange turns joint 4 by pi at once."""
     arm = make_cell().arms[2]
     turn = 2 * np.pi * (np.arange(36) + 0.5) / 36
     q = np.tile(np.radians([10.0, 20.0, 10.0, 30.0, 0.0, 40.0]), (36, 1))

@@ -126,11 +126,13 @@ def flat_points(assumed: Assumed) -> Result:
     return Result(
         obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist()},
         table=_table(points),
-        caption=caption("fig07", points=_extent(points), seam=_extent(seam.points),
-                        **_standstill(seam, points)),
+        caption=caption(
+            "fig07", points=_extent(points), seam=_extent(seam.points), **_standstill(seam, points)
+        ),
         alt="The saddle curve and, smaller above it, the curve of the points as they are welded.",
-        figure=lambda: seam_figure({"on the workpiece": seam.points, "as welded, flat": points},
-                                   _turns(seam, points)),
+        figure=lambda: seam_figure(
+            {"on the workpiece": seam.points, "as welded, flat": points}, _turns(seam, points)
+        ),
     )
 
 
@@ -156,8 +158,9 @@ def points_in_base(assumed: Assumed) -> Result:
         table=_table(points),
         caption=caption("fig08", centre=centre, extent=_extent(points)),
         alt="A small closed curve in the frame of the welder's base.",
-        figure=lambda: seam_figure({"in the frame of base 3": points},
-                                   _turns(SeamModel.of(assumed).seam, points)),
+        figure=lambda: seam_figure(
+            {"in the frame of base 3": points}, _turns(SeamModel.of(assumed).seam, points)
+        ),
     )
 
 
@@ -181,7 +184,7 @@ def _turns(seam: Seam, points: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _standstill(seam: Seam, points: np.ndarray) -> dict[str, Any]:
-    """For a caption: where the points are slowest, and their pace there as a share of the seam's."""
+    """For a caption: where the points are slowest, and their pace as a share of the seam's."""
     return {"turns": list(_turns(seam, points)), "slowest": float(_pace(seam, points).min())}
 
 

@@ -14,7 +14,17 @@ from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
 from .....view.landscape import slices_figure
-from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, Survey, joint_margin
+from .....welding import (
+    ROBOTS,
+    Cell,
+    Jobs,
+    Optimum,
+    Placement,
+    Separation,
+    Status,
+    Survey,
+    joint_margin,
+)
 from .....welding.between import certified_separation
 from .....welding.motion import smallest_rank
 from ...document import printed_optimum

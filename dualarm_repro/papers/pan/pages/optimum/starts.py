@@ -84,9 +84,7 @@ def meets_singularity(assumed: Assumed) -> Result:
     task = Problem.of(assumed, _ANY_MEASURE)
     placement = Placement(replace(task.job.cell(), threshold=0.0), task.measure.reading())
     rule, known = "nearest_singularity", surveyed(task)
-    found = extreme_position(
-        placement, task.box, rule, spacing=SPACING, starts=STARTS, known=known
-    )
+    found = extreme_position(placement, task.box, rule, spacing=SPACING, starts=STARTS, known=known)
     if not found.fitness:
         return nothing_feasible("ratio", "position")
     smallest = 1.0 / found.fitness
