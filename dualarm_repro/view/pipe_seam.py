@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 from mpl_toolkits.mplot3d import proj3d
+from scipy.spatial import cKDTree
 
 from ..welding import Seam
 from .labels import name_point, push_apart
-from .style import BLUE, ORANGE, PALETTE, RED, axes_3d, house_style, ink, same_scale
+from .style import BLACK, BLUE, ORANGE, PALETTE, RED, axes_3d, house_style, ink, same_scale
 
 _FLAT = 0.25  # height by width of a curve that is drawn higher than it is
 
@@ -43,13 +44,15 @@ def pipes_figure(
     return figure
 
 
-def seam_figure(curves: Mapping[str, np.ndarray]) -> Any:
+def seam_figure(
+    curves: Mapping[str, np.ndarray], marked: Mapping[str, np.ndarray] | None = None
+) -> Any:
     """Closed space curves (N, 3) in metres, one for each name; a dot where each begins.
 
-    What is flatter than a quarter of its width is drawn higher than it is, and says so.
+    What is flatter than a quarter of its width is drawn higher than it is, and says so. Points (3,)
+    that are ``marked`` get a cross and their name.
     """
-    points = np.vstack(list(curves.values()))
-    spans = np.ptp(points, axis=0)
+    spans = np.ptp(np.vstack(list(curves.values())), axis=0)
     flat = spans[2] / spans[:2].max()
     stretch = 1.0 if flat > _FLAT else float(max(2, round(0.5 / flat)))
     with house_style():
@@ -61,19 +64,31 @@ def seam_figure(curves: Mapping[str, np.ndarray]) -> Any:
             ax.set_title(f"z drawn {stretch:.0f} times larger")
         same_scale(ax, stretch=stretch)
         texts = [
-            _name_outside(ax, curve, points.mean(axis=0), name, color)
-            for color, (name, curve) in zip(PALETTE[::3], curves.items(), strict=False)
+            _name_outside(ax, curve, [] if k else list(curves.values())[1:], name, color)
+            for k, (color, (name, curve)) in enumerate(
+                zip(PALETTE[::3], curves.items(), strict=False)
+            )
         ]
+        for name, point in (marked or {}).items():
+            ax.scatter(*point, color=BLACK, marker="x", s=36, depthshade=False)
+            inside = list(curves.values())[-1].mean(axis=0)
+            to, at = (proj3d.proj_transform(*p, ax.get_proj())[0] for p in (inside, point))
+            texts.append(name_point(ax, point, name, (42 * np.sign(to - at), -7)))
         push_apart(figure, texts)
     return figure
 
 
-def _name_outside(ax: Any, curve: np.ndarray, middle: np.ndarray, name: str, color: str) -> Any:
-    """Name a curve above its highest point on the paper, away from the middle of all curves."""
-    x, y = proj3d.proj_transform(*curve.T, ax.get_proj())[:2]
-    across, up = proj3d.proj_transform(*middle, ax.get_proj())[:2]
-    k = int((np.asarray(y) - up - 0.7 * np.abs(np.asarray(x) - across)).argmax())
-    return name_point(ax, curve[k], name, (0, 14), color=color)
+def _name_outside(
+    ax: Any, curve: np.ndarray, others: list[np.ndarray], name: str, color: str
+) -> Any:
+    """Name a curve above its upper side on the paper, far from the other curves."""
+    at, *rest = (np.array(proj3d.proj_transform(*c.T, ax.get_proj())[:2]).T
+                 for c in (curve, *others))  # fmt: skip
+    middle = at.mean(axis=0)
+    merit = at[:, 1] - middle[1] - 0.7 * abs(at[:, 0] - middle[0])
+    if rest:
+        merit += 6.0 * cKDTree(np.vstack(rest)).query(at)[0]
+    return name_point(ax, curve[int(merit.argmax())], name, (0, 14), color=color)
 
 
 def _closed(points: np.ndarray) -> np.ndarray:

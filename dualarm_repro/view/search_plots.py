@@ -16,7 +16,10 @@ from .style import BLACK, BLUE, ORANGE, RED, SMALL, WIDTH, house_style, ink
 
 
 def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
-    """Histories (runs, generations) of several quantities: median, band of all, single runs."""
+    """Histories (runs, generations) of several quantities: median, band of all, single runs.
+
+    Each is named with the median of its last values.
+    """
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 4.0))
         for color, (name, values) in zip((BLUE, ORANGE, RED), curves.items(), strict=False):
@@ -25,7 +28,8 @@ def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
                 generation, values.min(axis=0), values.max(axis=0), color=color, alpha=0.2
             )
             ax.plot(generation, values.T, color=color, lw=0.5, alpha=0.4)
-            ax.plot(generation, np.median(values, axis=0), color=color, lw=2.2, label=name)
+            median = np.median(values, axis=0)
+            ax.plot(generation, median, color=color, lw=2.2, label=f"{name}\n{median[-1]:.4g}")
         ax.set(xlabel="generation", ylabel=ylabel, ylim=(0, None))
         ax.margins(x=0)
         name_ends(ax)

@@ -6,6 +6,7 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import MultipleLocator
 
 from ..scene.posing import links_of
 from ..welding import ROBOTS, WELDER, Cell, Separation
@@ -71,8 +72,11 @@ def cell_figure(
         close.set_title("at the workpiece")
         name_points(whole, {name: cell.bases[k][:3, 3] for k, name in enumerate(ROBOTS)},
                     offset=(0, -14))  # fmt: skip
-        tip = centre + cell.references[WELDER, index]
-        name_points(close, {"torch": tip}, offset=(0, 16))
+        name_point(close, centre + cell.references[WELDER, index], "torch", (0, 16))
+        for k in range(WELDER):
+            flange, end = _skeleton(cell, k, q[k, index])[-1], _grip(cell, k, q, index)
+            aside = 34 if flange[0] > end[0] else -34
+            name_point(close, 0.5 * (flange + end), "gripper", (aside, 0))
     return figure
 
 
@@ -208,8 +212,9 @@ def _arrow(ax: Any, start: np.ndarray, end: np.ndarray, color: str) -> np.ndarra
 
 
 def _room(ax: Any) -> None:
-    ax.set(xlim=(-1.3, 1.3), ylim=(-1.4, 0.4), zlim=(0, 1.5))
-    same_scale(ax, zoom=1.1)
+    """All three bases, and the arms above them."""
+    ax.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(0, 1.5))
+    same_scale(ax, zoom=1.15)
 
 
 def _around(ax: Any, centre: np.ndarray, half: float = 0.6) -> None:
@@ -220,3 +225,5 @@ def _around(ax: Any, centre: np.ndarray, half: float = 0.6) -> None:
         if hasattr(artist, "_axlim_clip"):
             artist._axlim_clip = True
     same_scale(ax, zoom=1.1)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_major_locator(MultipleLocator(0.5))

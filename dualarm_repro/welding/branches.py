@@ -12,6 +12,7 @@ from ..kernel import kernel
 from .manipulability import manipulabilities
 
 _TURN = 2.0 * math.pi
+_QUARTER = 0.5 * math.pi
 _PROBES = 6  # poses looked at first, to drop placements out of reach early
 
 
@@ -34,7 +35,8 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     unwrapped and each joint's path is shifted by one number of full turns into the limits. Of the
     branches that pass, the one with the largest mean manipulability is taken (of equal ones the
     first). The path is closed and its poses are samples of a smooth one: a branch whose wrist could
-    leave the arm's reach between two of them does not pass.
+    leave the arm's reach between two of them does not pass, nor one that goes past a singularity
+    there, which shows in a joint that turns by more than a quarter.
 
     Parameters
     ----------
@@ -48,7 +50,8 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     lower, upper : (6,)
         [rad]; infinite: no limits.
     threshold : float
-        Manipulability [m^3] at or below which a configuration counts as singular.
+        Manipulability [m^3] at or below which a configuration counts as singular; 0 admits paths
+        that go past one between their poses.
 
     Returns
     -------
@@ -90,7 +93,7 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
                 furthest = max(furthest, 2)
                 continue
             measures = manipulabilities(geometry, path)
-            if measures.min() <= threshold:
+            if measures.min() <= threshold or (threshold > 0.0 and _jumps(path)):
                 furthest = max(furthest, 3)
                 continue
             furthest, passed = 4, b
@@ -137,6 +140,24 @@ def _reached_between(geometry, path):
         bend = max(bend, abs(r[n - 1] - 2.0 * r[n] + r[(n + 1) % count]))
     inner, outer = abs(upper[0] - fore[0]), upper[0] + fore[0]
     return min(outer - r.max(), r.min() - inner) >= 0.125 * bend
+
+
+@kernel
+def _jumps(path):
+    """Whether a joint of a closed path, unwrapped, turns by more than pi/2 between two samples.
+
+    Where the wrist's or the shoulder's axes align, two joints turn by pi at once. Seen from the
+    nearest singular point two samples with more than pi/2 between them lie on different sides of
+    it: linear interpolation of the joints would then follow another motion than the one meant.
+    """
+    for j in range(6):
+        for n in range(len(path)):
+            step = path[n, j] - path[n - 1, j]
+            if n == 0:  # a joint may end turned by full turns
+                step -= _TURN * np.round(step / _TURN)
+            if abs(step) > _QUARTER:
+                return True
+    return False
 
 
 @kernel

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arms.wrist_ik import inverse_kinematics
 from ..errors import UnknownNameError
+from .branches import Status
 from .cell import WELDER, Cell
 from .genetic import Fitness
 from .grid_search import Optimum, best_cells, grid_points, refined
@@ -78,6 +79,7 @@ def extreme_position(
     spacing: float,
     starts: int,
     tolerance: float = 1e-3,
+    known: Survey | None = None,
 ) -> Optimum:
     """Feasible position that a rule calls poor, and its score.
 
@@ -92,6 +94,8 @@ def extreme_position(
         ``nearest_singularity`` (the smallest manipulability of any robot is smallest).
     spacing, starts, tolerance
         As in :func:`.grid_search.grid_optimum`.
+    known : Survey, optional
+        Of this job and spacing, with any measure and threshold: the rest need not be scored again.
 
     Returns
     -------
@@ -114,8 +118,10 @@ def extreme_position(
             values[jobs.feasible] = EXTREMES[rule](part.w, placement.measures(part).system)
         return values
 
-    points = grid_points(box, spacing)
-    values = np.concatenate([score(block) for block in blocks(points)])
+    points = grid_points(box, spacing) if known is None else known.points
+    if known is not None:
+        points = points[np.isin(known.status, (Status.FEASIBLE, Status.SINGULAR))]
+    values = np.concatenate([np.empty(0), *(score(block) for block in blocks(points))])
     cells = best_cells(points, values, starts, spacing)
     found = refined(score, cells, box, 0.5 * spacing, tolerance)
     image = nearer_image(found, score, _SIDE)

@@ -30,6 +30,14 @@ def held_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
     return flange_poses(cell, jobs, robot) @ np.linalg.inv(local)
 
 
+def stretch(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+    """Distance of a wrist from its shoulder along the first job, over the largest there is (N,)."""
+    geometry = cell.geometries[robot]
+    joints = np.array([cell.arms[robot].joint_positions(q) for q in jobs.q[0, robot]])
+    apart = np.linalg.norm(joints[:, 4] - joints[:, 1], axis=1)
+    return apart / (geometry.upper_arm[0] + geometry.forearm[0])
+
+
 def joint_margin(cell: Cell, jobs: Jobs) -> float:
     """Smallest margin of the first job to a joint limit [rad], negative beyond one."""
     limits = [cell.limits(k) for k in range(len(ROBOTS))]

@@ -60,9 +60,9 @@ def job_of(pan, listed, given, points=None):
 
 @pytest.fixture(scope="module")
 def optimum(pan, listed, declared):
-    """The published optimum: job, position, joints (3, N, 6) as exported."""
+    """The published optimum: job, position, joints (3, N, 6) as exported, without the last row."""
     table = pan.table("pan.claim_joint_sequence")
-    q = [np.radians(columns(table, *(f"{o} q{j} [deg]" for j in range(1, 7)))) for o in OWNERS]
+    q = [np.radians(columns(table, *(f"{o} q{j} [deg]" for j in range(1, 7))))[:-1] for o in OWNERS]
     centre = np.array(pan.obtained("pan.claim_joint_sequence")["position"])
     return job_of(pan, listed, declared), centre, np.stack(q)
 
@@ -92,6 +92,23 @@ def test_joints_carry_the_job(optimum):
         assert abs(flange - wanted).max() < 1e-9
         assert (q[k] >= job.arm.lower).all()
         assert (q[k] <= job.arm.upper).all()
+
+
+def test_the_exported_weld_is_a_turn_at_one_pace(pan, optimum):
+    """Its times are those of the way along a dense seam, and it ends where it began."""
+    job, _, q = optimum
+    table, pace = pan.table("pan.claim_joint_sequence"), pan.record("pan.claim_joint_sequence")
+    pace = _value(pace["thresholds"]["welding_speed"])
+    assert len(table["time [s]"]) == job.count + 1
+    assert np.allclose(table["time [s]"], table["seam [m]"] / pace)
+    dense = Seam(job.of["radius_main"], job.of["radius_branch"], 100 * job.count).p
+    ways = np.linalg.norm(np.diff(dense, axis=0, append=dense[:1]), axis=1).cumsum()
+    assert table["seam [m]"][1:] == pytest.approx(ways[99::100], abs=1e-5)
+    for k, owner in enumerate(OWNERS):
+        last = [np.radians(table[f"{owner} q{j} [deg]"][-1]) for j in range(1, 7)]
+        turns = (np.array(last) - q[k][0]) / (2 * np.pi)
+        assert abs(turns - np.round(turns)).max() < 1e-9
+        assert abs(np.diff(q[k], axis=0)).max() < np.pi / 2
 
 
 def test_measures_and_fitness_of_the_optimum(pan, optimum):

@@ -81,6 +81,10 @@ class Job:
             q = q + TURN * np.round((0.5 * (arm.lower + arm.upper) - middle) / TURN)
             if (q < arm.lower).any() or (q > arm.upper).any() or not self._reached(q):
                 continue
+            steps = np.diff(q, axis=0, append=q[:1])
+            steps[-1] -= TURN * np.round(steps[-1] / TURN)
+            if abs(steps).max() > TURN / 4:  # past a singularity between two points
+                continue
             w = abs(np.linalg.det(arm.jacobian(q, local[:, :3, 3])))
             better = best is None or w.mean() > best[1].mean() * (1 + 1e-12)
             if w.min() > self.of["singularity_threshold"] and better:

@@ -36,7 +36,8 @@ def test_nearer_image():
 
 @pytest.mark.parametrize("rule", EXTREMES)
 def test_extreme_positions_keep_their_rules(placement, rule):
-    found = extreme_position(placement, BOX, rule, spacing=0.3, starts=2, tolerance=0.05)
+    fineness = {"spacing": 0.3, "starts": 2, "tolerance": 0.05}
+    found = extreme_position(placement, BOX, rule, **fineness)
     grid = survey(placement, BOX, 0.3)
     jobs = placement.jobs(grid.points[grid.status == 0])
     scores = EXTREMES[rule](jobs.w, placement.measures(jobs).system)
@@ -45,6 +46,8 @@ def test_extreme_positions_keep_their_rules(placement, rule):
     at = placement.jobs([found.position])
     assert at.feasible.all()
     assert found.fitness == EXTREMES[rule](at.w, placement.measures(at).system)[0]
+    again = extreme_position(placement, BOX, rule, **fineness, known=grid)
+    assert again.position.tolist() == found.position.tolist()
 
 
 def test_no_extreme_out_of_reach(placement):

@@ -1,5 +1,7 @@
 """Poses of a job by forward kinematics, and velocities by differences and by Fourier transform."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from dualarm_repro.welding import (
     joint_margin,
     torch_tips,
 )
-from dualarm_repro.welding.motion import flange_twist, periodic_derivative, smallest_rank
+from dualarm_repro.welding.motion import flange_twist, periodic_derivative, smallest_rank, stretch
 
 from .cells import make_cell
 
@@ -26,6 +28,19 @@ def job():
     jobs = Placement(cell, Objective()).jobs([CENTRE])
     assert np.isfinite(jobs.q).all()
     return cell, jobs
+
+
+def test_a_straight_arm_is_stretched_to_one(job):
+    cell, jobs = job
+    geometry = cell.geometries[0]
+    assert ((stretch(cell, jobs, 0) > 0) & (stretch(cell, jobs, 0) < 1)).all()
+    turned = np.zeros((1, 3, 3001, 6))
+    turned[..., 2] = np.linspace(-np.pi, np.pi, 3001)
+    found = stretch(cell, replace(jobs, q=turned), 0)
+    assert found.max() == pytest.approx(1.0, abs=1e-5)
+    shortest = abs(geometry.upper_arm[0] - geometry.forearm[0])
+    longest = geometry.upper_arm[0] + geometry.forearm[0]
+    assert found.min() == pytest.approx(shortest / longest, abs=1e-2)
 
 
 def test_flanges_torch_and_workpiece_are_where_the_job_has_them(job):

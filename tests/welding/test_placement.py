@@ -256,6 +256,27 @@ def test_a_wrist_that_leaves_the_reach_between_two_points_is_out_of_reach():
     assert dense.jobs([outer]).status[0] != Status.OUT_OF_REACH  # the bound is on the safe side
 
 
+def test_a_step_past_a_singularity_is_no_path():
+    """Through an aligned wrist a smooth motion of the flange turns joint 4 by pi at once."""
+    arm = make_cell().arms[2]
+    turn = 2 * np.pi * (np.arange(36) + 0.5) / 36
+    q = np.tile(np.radians([10.0, 20.0, 10.0, 30.0, 0.0, 40.0]), (36, 1))
+    lower, upper, found = arm.lower.copy(), arm.upper.copy(), {}
+    lower[1:3], upper[1:3] = q[0, 1:3] - 0.2, q[0, 1:3] + 0.2  # one branch but for the wrist
+    for name, middle in (("through", 0.0), ("beside", 1.0)):
+        q[:, 4] = middle + 0.5 * np.cos(turn)
+        for threshold in (1e-6, 0.0):
+            path, _, _, status = follow(
+                wrist_geometry(arm.name, arm.chain), np.eye(4), arm.fk(q), np.zeros((1, 3)),
+                lower, upper, threshold,
+            )  # fmt: skip
+            found[name, threshold] = status[0]
+    assert found["through", 1e-6] == Status.SINGULAR
+    assert found["through", 0.0] == Status.FEASIBLE  # singularities left aside
+    assert found["beside", 1e-6] == Status.FEASIBLE
+    assert abs(np.diff(path[0], axis=0)).max() < 0.1
+
+
 def test_the_reference_of_the_carriers_changes_their_weight_and_nothing_else():
     found = {}
     for reference in CARRIER_REFERENCES:

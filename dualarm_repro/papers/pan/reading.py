@@ -234,8 +234,10 @@ def optimum(problem: Problem) -> Optimum:
 @memo(_SMALL)
 def poor_position(problem: Problem, rule: str) -> Optimum:
     """Feasible position that a rule calls poor; NaN if no position of the grid is feasible."""
-    placement = problem.placement()
-    return extreme_position(placement, problem.box, rule, spacing=SPACING, starts=STARTS)
+    placement, known = problem.placement(), surveyed(problem)
+    return extreme_position(
+        placement, problem.box, rule, spacing=SPACING, starts=STARTS, known=known
+    )
 
 
 @memo(_LARGE)

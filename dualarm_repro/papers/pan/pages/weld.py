@@ -10,28 +10,29 @@ import pandas as pd
 from ....ledger import REGISTRY, Assumed, Bounded, Result
 from ....ledger.captions import captions
 from ....view.seam_curves import rates_figure
-from ....welding import ROBOTS, saddle_seam
+from ....welding import ROBOTS, Cell, Jobs, saddle_seam
 from ....welding.between import certified_separation, interpolation_offset
 from ....welding.execution import EFFORTS, arc_speed, joint_rates, seam_rate, speed_limits
-from ....welding.grid_search import grid_points
 from ....welding.placement import blocks
 from ..reading import (
-    SPACING,
     Problem,
     job_scene_at,
     nothing_feasible,
     optimum,
     poor_position,
     solved,
+    surveyed,
 )
 
 checks = partial(REGISTRY.checks, page="pan/weld")
 caption = captions(__file__)
+_DRAWS = 16  # of the assumptions; each needs a survey of the region
 _DENSE = 20_000  # points of the seam that the torch is compared with
 
 
 @checks(
     "pan.claim_joint_sequence",
+    samples=_DRAWS,
     rules=[
         Bounded(
             "separation",
@@ -55,12 +56,7 @@ def joint_sequence(assumed: Assumed) -> Result:
     cell, jobs = task.job.cell(), solved(task.job, tuple(best.position))
     seam = saddle_seam(task.job.radius_main, task.job.radius_branch, _DENSE).points
     bound, offset = certified_separation(cell, jobs), interpolation_offset(cell, jobs, seam)
-    fastest, q = arc_speed(cell, jobs), jobs.q[0]
-    columns = {
-        f"{name} q{j + 1} [deg]": np.degrees(q[k, :, j])
-        for k, name in enumerate(ROBOTS)
-        for j in range(6)
-    }
+    fastest = arc_speed(cell, jobs)
     return Result(
         obtained={
             "separation": bound.lower,
@@ -70,7 +66,7 @@ def joint_sequence(assumed: Assumed) -> Result:
             "grips_apart": offset.grips,
             "position": best.position.tolist(),
         },
-        table=pd.DataFrame({"arc [m]": _arc(seam_rate(cell)), **columns}),
+        table=job_file(cell, jobs, _limit("welding_speed")),
         caption=caption("claim_joint_sequence", points=cell.count, fastest=fastest),
         alt="Largest turn of a joint of each robot per millimetre of seam, against its limit.",
         figure=lambda: rates_figure(
@@ -80,14 +76,30 @@ def joint_sequence(assumed: Assumed) -> Result:
     )
 
 
-def _arc(rate: np.ndarray) -> np.ndarray:
-    """Length of the seam from its first point to each (N,) [m], by the trapezoidal rule."""
-    steps = 0.5 * (rate + np.roll(rate, -1)) * 2 * np.pi / len(rate)
-    return np.concatenate([[0.0], np.cumsum(steps[:-1])])
+def job_file(cell: Cell, jobs: Jobs, pace: float) -> pd.DataFrame:
+    """The weld at one pace [m/s]: time, way along the seam, joints of three arms, first point last.
+
+    The seam is closed, so that the last row is at its first point again, one turn later.
+    """
+    path = jobs.q[0]
+    turned = 2 * np.pi * np.round((path[:, -1:] - path[:, :1]) / (2 * np.pi))
+    q, rate = np.degrees(np.concatenate([path, path[:, :1] + turned], axis=1)), seam_rate(cell)
+    steps = 0.5 * (rate + np.roll(rate, -1)) * 2 * np.pi / cell.count  # trapezoidal rule
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    columns = {
+        f"{name} q{j + 1} [deg]": q[k, :, j] for k, name in enumerate(ROBOTS) for j in range(6)
+    }
+    return pd.DataFrame({"time [s]": arc / pace, "seam [m]": arc, **columns})
+
+
+def _limit(name: str) -> float:
+    limits = REGISTRY.look("pan.claim_joint_sequence", "thresholds").thresholds
+    return float(limits[name].value)
 
 
 @checks(
     "pan.claim_sudden_turns",
+    samples=_DRAWS,
     rules=[
         Bounded(
             "ratio",
@@ -116,8 +128,10 @@ def sudden_turns(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_energy",
+    samples=_DRAWS,
     rules=[
-        Bounded("better", "feasible positions of a grid with less effort than the optimum", high=0)
+        Bounded("better", "feasible positions of a grid with less effort than the optimum", high=0),
+        Bounded("positions", "feasible positions of the grid", low="enough"),
     ],
 )
 def least_effort(assumed: Assumed) -> Result:
@@ -125,20 +139,16 @@ def least_effort(assumed: Assumed) -> Result:
     task = Problem.of(assumed)
     best, effort = optimum(task), EFFORTS[assumed["effort_measure"]]
     if not best.fitness:
-        return nothing_feasible("better", "share")
-    cell, placement = task.job.cell(), task.placement()
-    values, fitness = [], []
-    for block in blocks(grid_points(task.box, SPACING)):
-        jobs = placement.jobs(block)
-        if jobs.feasible.any():
-            part = jobs.select(jobs.feasible)
-            values.append(effort(cell, part))
-            fitness.append(placement.score(part))
-    every, scores = np.concatenate(values), np.concatenate(fitness)
+        return nothing_feasible("better", "positions", "share")
+    cell, placement, grid = task.job.cell(), task.placement(), surveyed(task)
+    feasible = grid.fitness > 0
+    parts = [effort(cell, placement.jobs(some)) for some in blocks(grid.points[feasible])]
+    every, scores = np.concatenate(parts), grid.fitness[feasible]
     own = float(effort(cell, solved(task.job, tuple(best.position)))[0])
     return Result(
         obtained={
             "better": int((every < own).sum()),
+            "positions": len(every),
             "share": float((every < own).mean()),
             "least": float(every.min() / own),
             "fitness_there": float(scores[every.argmin()] / best.fitness),
@@ -146,7 +156,6 @@ def least_effort(assumed: Assumed) -> Result:
         caption=caption(
             "claim_energy",
             effort=assumed["effort_measure"].replace("_", " "),
-            positions=len(every),
             correlation=float(np.corrcoef(scores, every)[0, 1]) if len(every) > 1 else None,
         ),
     )

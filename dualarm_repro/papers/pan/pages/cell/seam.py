@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,12 +13,14 @@ from .....ledger import REGISTRY, Adopts, Assumed, Is, NoOriginal, Residual, Res
 from .....ledger.captions import captions
 from .....ledger.formula import parse
 from .....view.pipe_seam import pipes_figure, seam_figure
-from .....welding import WELDER, saddle_seam
+from .....welding import WELDER, Seam, saddle_seam
+from .....welding.motion import periodic_derivative
 from ...print_forms import in_symbols, printed_text
 from ...reading import FlatSeam, SeamModel, at_display
 
 checks = partial(REGISTRY.checks, page="pan/cell")
 caption = captions(__file__)
+_SLOW = 0.25  # share of the pace along the seam, below which a point all but stands still
 
 
 @checks(
@@ -123,9 +126,13 @@ def flat_points(assumed: Assumed) -> Result:
     return Result(
         obtained={"not_level": slope, "extent": np.ptp(points, axis=0).tolist()},
         table=_table(points),
-        caption=caption("fig07", points=_extent(points), seam=_extent(seam.points)),
+        caption=caption(
+            "fig07", points=_extent(points), seam=_extent(seam.points), **_standstill(seam, points)
+        ),
         alt="The saddle curve and, smaller above it, the curve of the points as they are welded.",
-        figure=lambda: seam_figure({"on the workpiece": seam.points, "as welded, flat": points}),
+        figure=lambda: seam_figure(
+            {"on the workpiece": seam.points, "as welded, flat": points}, _turns(seam, points)
+        ),
     )
 
 
@@ -151,7 +158,9 @@ def points_in_base(assumed: Assumed) -> Result:
         table=_table(points),
         caption=caption("fig08", centre=centre, extent=_extent(points)),
         alt="A small closed curve in the frame of the welder's base.",
-        figure=lambda: seam_figure({"in the frame of base 3": points}),
+        figure=lambda: seam_figure(
+            {"in the frame of base 3": points}, _turns(SeamModel.of(assumed).seam, points)
+        ),
     )
 
 
@@ -159,6 +168,24 @@ def _residual(model: SeamModel) -> float:
     x, y, z = model.seam.points.T
     main = abs(np.hypot(y, z) - model.radius_main).max()
     return float(max(main, abs(np.hypot(x, y) - model.radius_branch).max()))
+
+
+def _pace(seam: Seam, points: np.ndarray) -> np.ndarray:
+    """Pace of the points over that along the seam (N,); near 0 the workpiece carries them back."""
+    speeds = [np.linalg.norm(periodic_derivative(p), axis=1) for p in (points, seam.points)]
+    return speeds[0] / speeds[1]
+
+
+def _turns(seam: Seam, points: np.ndarray) -> dict[str, np.ndarray]:
+    """The places at which the curve of the points nearly stands still, by name."""
+    pace = _pace(seam, points)
+    slow = (pace < _SLOW) & (pace < np.roll(pace, 1)) & (pace <= np.roll(pace, -1))
+    return {f"theta = {np.degrees(seam.theta[k]):.0f} deg": points[k] for k in np.flatnonzero(slow)}
+
+
+def _standstill(seam: Seam, points: np.ndarray) -> dict[str, Any]:
+    """For a caption: where the points are slowest, and their pace as a share of the seam's."""
+    return {"turns": list(_turns(seam, points)), "slowest": float(_pace(seam, points).min())}
 
 
 def _extent(points: np.ndarray) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.seam_curves import joints_figure, measures_figure
 from .....welding import ROBOTS, WELDER, Cell, Jobs, closed_form, flange_poses, joint_margin
+from .....welding.motion import stretch
 from ...document import SEED, stand_in
 from ...reading import (
     Measure,
@@ -136,7 +138,7 @@ def _poor_figure(item: str, letter: str) -> None:
                 "position": centre.tolist(),
             },
             table=curve_table(jobs.w[0], measures.system, assumed["time_axis"]),
-            caption=caption(item, status=status_name(jobs), curve=here),
+            caption=caption(item, status=status_name(jobs), curve=here, cusp=_cusp(cell, jobs)),
             alt=f"Manipulability curves at position ({letter}) beside those at the optimum.",
             figure=lambda: measures_figure(panels),
             scene=lambda: job_scene_at(f"The job at position ({letter}).", cell, jobs, centre),
@@ -197,6 +199,12 @@ def unsteady(assumed: Assumed) -> Result:
             "claim_unstable_b", status=status_name(solved(problem.job, tuple(poor.position)))
         ),
     )
+
+
+def _cusp(cell: Cell, jobs: Jobs) -> dict[str, Any]:
+    """Where the welder comes nearest to a singularity, and how far its arm is stretched there."""
+    point = int(jobs.w[0, WELDER].argmin())
+    return {"point": point, "stretch": float(stretch(cell, jobs, WELDER)[point])}
 
 
 def curve_table(w: np.ndarray, system: np.ndarray, axis: str) -> pd.DataFrame:

@@ -14,7 +14,17 @@ from .....errors import DataFileError
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
 from .....view.landscape import slices_figure
-from .....welding import ROBOTS, Cell, Jobs, Optimum, Placement, Separation, Status, joint_margin
+from .....welding import (
+    ROBOTS,
+    Cell,
+    Jobs,
+    Optimum,
+    Placement,
+    Separation,
+    Status,
+    Survey,
+    joint_margin,
+)
 from .....welding.between import certified_separation
 from .....welding.motion import smallest_rank
 from ...document import printed_optimum
@@ -84,7 +94,7 @@ def problem(assumed: Assumed) -> Result:
         caption=caption("eq_opt", second=len(values)),
         alt="Three slices of the fitness with the feasible set, the optimum and the printed point.",
         figure=lambda: slices_figure(
-            placement, bounds, best.position, best.fitness, printed_optimum()
+            placement, _shown(grid, bounds), best.position, best.fitness, printed_optimum()
         ),
     )
 
@@ -131,6 +141,13 @@ def constraints(assumed: Assumed) -> Result:
         table=nearest.rename("separation_m").rename_axis("pair").reset_index(),
         caption=caption("claim_constraints", points=fine.seam_points),
     )
+
+
+def _shown(grid: Survey, bounds: np.ndarray) -> np.ndarray:
+    """The part of the region that holds feasible positions and the printed point (3, 2) [m]."""
+    held = np.vstack([grid.points[grid.fitness > 0], printed_optimum()])
+    low, high = held.min(axis=0) - 2 * SPACING, held.max(axis=0) + 2 * SPACING
+    return np.column_stack([np.maximum(low, bounds[:, 0]), np.minimum(high, bounds[:, 1])])
 
 
 def constraint_disagreements(task: Problem, status: np.ndarray) -> int:

@@ -16,6 +16,7 @@ from ...reading import SPACING, STARTS, Measure, Problem, nothing_feasible, surv
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
+_DRAWS = 16  # of the assumptions, where each needs a search of its own
 #: What the constraints exclude is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
@@ -69,6 +70,7 @@ def meets_collision(assumed: Assumed) -> Result:
 
 @checks(
     "pan.claim_meets_singularity",
+    samples=_DRAWS,
     rules=[
         Bounded(
             "ratio",
@@ -81,9 +83,8 @@ def meets_singularity(assumed: Assumed) -> Result:
     """The position whose seam passes nearest to a singularity, the threshold left aside."""
     task = Problem.of(assumed, _ANY_MEASURE)
     placement = Placement(replace(task.job.cell(), threshold=0.0), task.measure.reading())
-    found = extreme_position(
-        placement, task.box, "nearest_singularity", spacing=SPACING, starts=STARTS
-    )
+    rule, known = "nearest_singularity", surveyed(task)
+    found = extreme_position(placement, task.box, rule, spacing=SPACING, starts=STARTS, known=known)
     if not found.fitness:
         return nothing_feasible("ratio", "position")
     smallest = 1.0 / found.fitness
