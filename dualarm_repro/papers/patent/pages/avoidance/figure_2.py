@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .....control.axis_distance import axis_distances, largest_thickness
 from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
 from .....control.settings import ControllerSettings
@@ -43,10 +44,13 @@ caption = captions(__file__)
 )
 def comparison(assumed: Assumed) -> Result:
     """Figure 2: one task with the avoidance rows off and on."""
-    scenario = crossing(assumed, "base_distance", "duration", "time_law", "capsules")
+    scenario = crossing(assumed, "duration", "time_law")
     settings = controller_settings(assumed, *AVOIDANCE, "feedback_gain")
-    dt = assumed["time_step"]
+    dt, by_axis = assumed["time_step"], assumed["distance_measure"] == "axis"
+    if by_axis:
+        settings = _between_axes(settings, scenario)
     naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
+    axes = float(axis_distances(scenario.system, motion.q).min())
     fastest = _path_speed(scenario)
     parts = scenario.system, scenario.circles
     table = trajectories({"without": (*parts, naive), "with": (*parts, motion)})
@@ -54,7 +58,8 @@ def comparison(assumed: Assumed) -> Result:
         obtained={
             "naive_distance": naive.smallest_distance,
             "distance": motion.smallest_distance,
-            "shortfall": settings.inner - motion.smallest_distance,
+            "axis_distance": axes,
+            "shortfall": settings.inner - (axes if by_axis else motion.smallest_distance),
             "tip_error": motion.largest_error,
             "tip_steps": motion.largest_error / (fastest * dt),
             "completed": motion.completed,
@@ -72,6 +77,13 @@ def comparison(assumed: Assumed) -> Result:
         figure=lambda: _comparison_figure(scenario, settings, naive, motion),
         scene=lambda: _scene(scenario, motion),
     )
+
+
+def _between_axes(settings: ControllerSettings, scenario: FrozenScenario) -> ControllerSettings:
+    """Ranges between link axes, wider by the thickness of the two thickest links that move."""
+    thickness = largest_thickness(scenario.system)
+    ranges = {"inner": settings.inner + thickness, "outer": settings.outer + thickness}
+    return settings.changed(surface=False, **ranges)
 
 
 def _path_speed(scenario: FrozenScenario) -> float:
