@@ -1,4 +1,4 @@
-"""Distances between link axes, the line segments within the capsules."""
+"""Distances between link axes, the line segments within the capsules, and nearest points."""
 
 from __future__ import annotations
 
@@ -22,6 +22,24 @@ def axis_distances(system: ArmSystem, q: np.ndarray) -> np.ndarray:
     found = np.empty(len(q))
     _smallest(system.arrays, np.ascontiguousarray(q), found)
     return found
+
+
+def nearest_points(system: ArmSystem, q: np.ndarray) -> np.ndarray:
+    """Nearest points (2, 3) of the surfaces of the watched pair that is nearest [m].
+
+    Where links overlap, each is the deepest point within the other link.
+    """
+    arrays = system.arrays
+    pairs = len(arrays.pairs)
+    frames = np.empty((arrays.start[-1] + len(arrays.base), 3, 4))
+    tips = np.empty((len(arrays.base), 3))
+    distance, witness = np.empty(pairs), np.empty((pairs, 3, 3))
+    joint_frames(arrays, np.ascontiguousarray(q), frames, tips)
+    core_distances(arrays, frames, distance, witness)
+    radii = arrays.radius[arrays.pairs]
+    k = int((distance - radii.sum(axis=1)).argmin())
+    first, second, normal = witness[k]
+    return np.array([first + radii[k, 0] * normal, second - radii[k, 1] * normal])
 
 
 @kernel

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .....control.axis_distance import axis_distances, largest_thickness
+from .....control.axis_distance import axis_distances, largest_thickness, nearest_points
 from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
 from .....control.settings import ControllerSettings
@@ -15,8 +15,9 @@ from .....control.simulate import pseudo_inverse
 from .....control.trajectory import trajectories
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
-from .....view.arm_drawings import skeleton
 from .....view.control_figures import comparison_figure
+from .....view.crossing import Crossing
+from .....view.link_bodies import Body
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
 from ...document import run
@@ -70,9 +71,9 @@ def comparison(assumed: Assumed) -> Result:
         table=table,
         caption=caption("fig02", scenario=scenario, naive=naive, motion=motion, step=fastest * dt),
         alt=(
-            "Two pictures of two arms, crossing each other without avoidance and apart with it; "
-            "below, their distance over time, which falls below zero without avoidance and stays "
-            "above the inner range with it."
+            "Two pictures of two arms with their capsules, which overlap without avoidance and are "
+            "apart with it, a line between the nearest points; below, their distance over time, "
+            "which falls below zero without avoidance and stays above the inner range with it."
         ),
         figure=lambda: _comparison_figure(scenario, settings, naive, motion),
         scene=lambda: _scene(scenario, motion),
@@ -92,17 +93,19 @@ def _path_speed(scenario: FrozenScenario) -> float:
     return float(np.linalg.norm(velocities, axis=-1).max())
 
 
-def _skeletons(scenario: FrozenScenario, q: np.ndarray) -> list[np.ndarray]:
-    arms = scenario.system.arms
-    return [
-        skeleton(p.arm, part, p.placement) for p, part in zip(arms, np.split(q, 2), strict=True)
-    ]
-
-
 def _tip_paths(scenario: FrozenScenario) -> list[np.ndarray]:
     times = np.linspace(0.0, scenario.period, 121)
     points = np.array([scenario.circles.at(t)[0] for t in times])
     return [points[:, 0], points[:, 1]]
+
+
+def _crossing(scenario: FrozenScenario, q: np.ndarray, step: int) -> Crossing:
+    """Both arms at one instant, with the nearest points of their links."""
+    left, right = scenario.system.arms
+    halves = np.split(q, 2)
+    bodies = Body(left, halves[0], MASTER, step), Body(right, halves[1], SLAVE, step)
+    first, second = _tip_paths(scenario)
+    return Crossing(bodies, (first, second), nearest_points(scenario.system, q))
 
 
 def _comparison_figure(
@@ -110,15 +113,14 @@ def _comparison_figure(
 ) -> Any:
     worst = int(naive.distance.argmin())
     at = min(worst, len(motion.q) - 1)
-    paths = _tip_paths(scenario)
     return comparison_figure(
         {
             "without avoidance": (naive.time, naive.distance),
             "with avoidance": (motion.time, motion.distance),
         },
         {
-            "without avoidance": [*_skeletons(scenario, naive.q[worst]), *paths],
-            "with avoidance": [*_skeletons(scenario, motion.q[at]), *paths],
+            "without avoidance": _crossing(scenario, naive.q[worst], worst),
+            "with avoidance": _crossing(scenario, motion.q[at], at),
         },
         (settings.inner, settings.outer),
     )
