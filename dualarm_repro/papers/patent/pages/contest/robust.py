@@ -235,8 +235,7 @@ def _added(motion: Motion, calm: Motion, measure: str) -> float:
         return np.inf
     if measure == "late_residual":  # as published: the error under the disturbance, not the change
         return MEASURES[measure](motion)
-    # Below a tenth of a micrometre the difference of two motions is that of their rounding.
-    return max(round(MEASURES[measure](motion) - MEASURES[measure](calm), 7), 0.0)
+    return max(MEASURES[measure](motion) - MEASURES[measure](calm), 0.0)
 
 
 def _share(own: float, other: float) -> float:
