@@ -11,12 +11,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .contest import newton_all
+from .contest import newton_until
 from .neural.network import network_rate
 from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import flow, iterate
+from .parts import ProgramStack
 from .problem import QuadraticProgram
-from .recorded import stacked
 from .solvers import solve
 
 _STEP_NETWORK = 0.05  # Euler steps of s; the flow decays with the rate 1
@@ -82,18 +82,26 @@ def _steps(length: float, longest: float) -> np.ndarray:
 
 
 def steps_in_a_row(
-    problems: list[QuadraticProgram], network: NetworkSettings, threshold: float, most: int
-) -> tuple[int, float]:
-    """Least Newton steps a problem with which the network follows problems in a row, and the error.
+    problems: ProgramStack,
+    exact: np.ndarray,
+    network: NetworkSettings,
+    threshold: float,
+    most: int,
+) -> np.ndarray:
+    """Newton steps (F,) that each of F problems in a row takes to |x - x*|_inf <= threshold.
 
-    It starts every problem from its state before. Where none of 1 ... ``most`` steps brings the
-    largest error [rad/s] within the threshold, the number that comes nearest is given.
+    Parameters
+    ----------
+    problems : ProgramStack
+    exact : (F, n)
+        Their minimisers x* [rad/s].
+
+    Returns
+    -------
+    ndarray (F,) of int
+        -1 where ``most`` steps are not enough. Every problem starts from the state before and takes
+        one step at least, for its answer is due before anybody knows that the old one would do.
     """
-    exact, x = np.array([solve(p).x for p in problems]), np.empty((len(problems), problems[0].size))
-    data, tried = stacked(problems), []
-    for steps in range(1, most + 1):
-        newton_all(data, network.numbers(), steps, x)
-        tried.append((steps, float(np.nan_to_num(np.abs(x - exact), nan=np.inf).max())))
-        if tried[-1][1] <= threshold:
-            return tried[-1]
-    return min(tried, key=lambda pair: pair[1])
+    steps = np.empty(len(exact), np.int64)
+    newton_until(problems, network.numbers(), exact, threshold, most, steps)
+    return steps

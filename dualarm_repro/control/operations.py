@@ -9,13 +9,17 @@ from .assembly import make_buffers
 from .circle import Circles, follow
 from .controller import control_step
 from .least_distance import least_distance
+from .least_norm import least_norm
 from .neural.network import network_rate, state_rate
 from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import iterate
-from .neural.saddle import solve_saddle
 from .problem import QuadraticProgram
 from .settings import ControllerSettings
+from .solvers import solve
 from .system import ArmSystem
+from .warm_start import least_distance_from
+
+_PRESSES = 1e-9  # multiplier from which on a constraint presses
 
 
 def exact_cost(p: QuadraticProgram) -> Cost:
@@ -23,10 +27,19 @@ def exact_cost(p: QuadraticProgram) -> Cost:
     return Instrument().cost(least_distance, p.parts)
 
 
+def exact_cost_after(p: QuadraticProgram, before: QuadraticProgram) -> Cost:
+    """The same from the constraints that press in the problem before; anew where rows differ."""
+    old = solve(before)
+    if len(old.z) != len(p.h):
+        return exact_cost(p)
+    at_bound = np.sign(np.where(np.abs(old.w) > _PRESSES, old.w, 0.0)).astype(np.int64)
+    return Instrument().cost(least_distance_from, p.parts, old.z > _PRESSES, at_bound)
+
+
 def pseudo_inverse_cost(p: QuadraticProgram) -> Cost:
-    """J^+ dr/dt by the Cholesky factor of J J^T, as the saddle point with the identity."""
-    right = np.concatenate([p.target, p.b])
-    return Instrument().cost(solve_saddle, np.eye(p.size), p.A.copy(), right)
+    """J^+ dr/dt by the Cholesky factor of J J^T."""
+    x, multipliers = np.empty(p.size), np.empty(len(p.b))
+    return Instrument().cost(least_norm, p.target, p.A, p.b, x, multipliers)
 
 
 def network_cost(p: QuadraticProgram, network: NetworkSettings) -> Cost:

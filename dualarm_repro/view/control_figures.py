@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .crossing import crossing_axes
+from .crossing import Crossing, crossing_axes
 from .labels import name_ends, name_point, push_apart
 from .style import BLACK, BLUE, GREEN, ORANGE, PALETTE, PURPLE, WIDTH, house_style
 
@@ -17,7 +17,7 @@ _RANGES = ("inner range", "outer range")
 
 def comparison_figure(
     curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
-    postures: Mapping[str, Sequence[np.ndarray]],
+    postures: Mapping[str, Crossing],
     ranges: tuple[float, float],
 ) -> Any:
     """Distance of two arms over time with and without avoidance, and postures when nearest.
@@ -27,7 +27,7 @@ def comparison_figure(
     curves
         Name to times (N,) and distances (N,) [m].
     postures
-        Name to skeletons of the arms, each (K, 3) [m], followed by the paths of the tips (N, 3).
+        Name to both arms at one instant.
     ranges
         Inner and outer range [m].
     """
@@ -120,7 +120,7 @@ def decay_figure(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], threshold:
             if last < len(times) and times[last] > 0:
                 ax.plot(times[last], threshold, "o", color=color, ms=5)
         ax.axhline(threshold, color=BLACK, lw=0.8)
-        ax.text(0.995, threshold, "threshold", ha="right", va="bottom", fontsize=9,
+        ax.text(0.1, threshold, "threshold", va="bottom", fontsize=9,
                 transform=ax.get_yaxis_transform())  # fmt: skip
         ax.set(xlabel="time [s]", ylabel="error", ylim=(1e-6, None), xscale="log", yscale="log")
         ax.margins(x=0)
@@ -151,8 +151,11 @@ def contest_figure(
             ax.errorbar(times, shown, xerr=np.abs(quartiles - times), fmt="o-", color=PALETTE[k],
                         capsize=2)  # fmt: skip
             least = int(shown.argmin())
-            told = name if errors[least] <= floor else f"{name}: {errors[least]:.1e}"
-            texts.append(name_point(ax, np.array([times[least], shown[least]]), told, (0, -11),
+            exact = errors[least] <= floor
+            told = name if exact else f"{name}: {errors[least]:.1e}"
+            # Those at the floor stand side by side, their names above and below in turn.
+            side = 12 if exact and k % 2 else -12
+            texts.append(name_point(ax, np.array([times[least], shown[least]]), told, (0, side),
                                     color=PALETTE[k]))  # fmt: skip
         ax.set(xscale="log", yscale="log", xlabel="time per problem [us]",
                ylabel="largest error [rad/s]", ylim=(0.2 * floor, None))  # fmt: skip
@@ -164,8 +167,8 @@ def contest_figure(
 def convergence_figure(
     series: Mapping[str, tuple[np.ndarray, np.ndarray]], threshold: float
 ) -> Any:
-    """Residual over the number of iterations, both logarithmic, with the step that reaches a
-    threshold for good; what lies a millionth below it is left out."""
+    """Distance from the minimiser over the number of steps, both logarithmic, with the step that
+    comes within a threshold for good; what lies a millionth below it is left out."""
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 4.2))
         texts = []
@@ -176,11 +179,15 @@ def convergence_figure(
             at = min(last, len(count) - 1)
             told = f"{name}: {count[at]:.0f} steps" if last < len(count) else f"{name}: not reached"
             ax.plot(count[at], values[at], "o", color=PALETTE[k])
-            texts.append(name_point(ax, np.array([count[at], values[at]]), told, (0, 14),
+            texts.append(name_point(ax, np.array([count[at], values[at]]), told, (-84, -12),
                                     color=PALETTE[k]))  # fmt: skip
         ax.axhline(threshold, color=BLACK, lw=0.8)
         ax.text(0.995, threshold, f"threshold {threshold:g}", ha="right", va="bottom", fontsize=9,
                 transform=ax.get_yaxis_transform())  # fmt: skip
-        ax.set(xlabel="steps", ylabel="residual", ylim=(max(1e-14, 1e-6 * threshold), None))
+        ax.set(
+            xlabel="steps",
+            ylabel="distance from the minimiser [rad/s]",
+            ylim=(max(1e-14, 1e-6 * threshold), None),
+        )
         push_apart(figure, texts)
     return figure

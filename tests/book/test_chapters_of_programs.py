@@ -35,10 +35,11 @@ METHODS = {
     """,
     "patent/avoidance": """
         run controller.problem draw_task stands_clear naive_motion simulate simulate_network
-        simulate_guarded pseudo_inverse_cost
+        simulate_guarded pseudo_inverse_cost crossing axis_distances
     """,
     "patent/contest": """
-        exact_cost steps_in_a_row network_errors primal_dual_errors network_flow primal_dual_flow
+        exact_cost exact_cost_after steps_in_a_row network_errors primal_dual_errors network_flow
+        primal_dual_flow contest exact_batch
         simulate_network simulate_primal_dual integrate_network simulate_in_single_precision
         low_pass
     """,

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.control.contest import contest
+from dualarm_repro.control.contest import contest, exact_batch
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.parts import program_of
 from dualarm_repro.control.recorded import recorded_problems, stacked
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
-from dualarm_repro.control.solvers import solve
+from dualarm_repro.control.solvers import SOLVERS, solve
 
 
 @pytest.fixture(scope="module")
@@ -39,3 +39,20 @@ def test_contest_measures_errors_against_the_exact_method(problems):
     for e in entries:
         assert 0 < e.low <= e.microseconds <= e.high
         assert e.violation >= 0
+
+
+def test_the_pseudo_inverse_is_timed_as_such(problems):
+    entries = contest(problems, NetworkSettings(), (1,), (1,), repeats=3)
+    (pinv,) = (e for e in entries if e.solver == "pseudo_inverse")
+    apart = [np.abs(np.linalg.pinv(p.A) @ p.b - solve(p).x).max() for p in problems]
+    assert pinv.error == pytest.approx(max(apart), rel=1e-9)
+    assert pinv.error > 0.01
+    assert pinv.violation > 0.01  # it knows no inequality
+
+
+def test_every_solver_of_the_batch_answers_alike(problems):
+    entries = exact_batch(problems[::10], repeats=1)
+    assert [e.solver for e in entries] == list(SOLVERS)
+    for e in entries:
+        assert e.error < 1e-5
+        assert e.microseconds > 0

@@ -13,6 +13,7 @@ from dualarm_repro.control.convergence import (
 )
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.penalised import rest_point
+from dualarm_repro.control.recorded import stacked
 from dualarm_repro.control.solvers import solve
 
 from .conftest import random_problem
@@ -45,17 +46,29 @@ def test_the_primal_dual_network_goes_on_where_it_stopped(p):
     assert together[2] == alone[0] < together[1] < together[0]
 
 
-def test_in_a_row_the_least_number_of_steps_is_found(p):
-    problems = [p] * 4
-    # Solved once, the problem stays solved; a single problem takes as many steps as from zero.
+def in_a_row(p, count, network, threshold, most):
+    exact = np.array([solve(p).x] * count)
+    return steps_in_a_row(stacked([p] * count), exact, network, threshold, most)
+
+
+def test_in_a_row_each_problem_takes_the_steps_it_needs(p):
+    # From zero the first takes as many as alone; the others start from its state.
     errors = network_errors(p, NETWORK, 40)
     threshold = 2.0 * errors[-1]
-    steps, error = steps_in_a_row(problems, NETWORK, threshold, 40)
-    assert steps == first_within(errors, threshold)
-    assert error == pytest.approx(errors[steps])
-    few, error = steps_in_a_row(problems, NETWORK, threshold, steps - 1)
-    assert few < steps
-    assert error > threshold
+    needed = first_within(errors, threshold)
+    assert needed > 1
+    steps = in_a_row(p, 6, NETWORK, threshold, 40)
+    assert steps[0] == needed
+    assert (steps[1:] < needed).all()
+    assert steps[-1] == 1
+    few = in_a_row(p, 6, NETWORK, threshold, needed - 1)
+    assert few[0] == -1
+    assert 0 < few[1] < needed  # what the first did is not lost
+
+
+def test_a_network_that_is_lost_starts_anew(p):
+    soft = NETWORK.changed(factor=10.0)
+    assert (in_a_row(p, 2, soft, 1e-9, 5) == -1).all()
 
 
 def test_in_continuous_time_the_network_decays_with_one_rate_and_both_arrive(p):

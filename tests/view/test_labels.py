@@ -10,7 +10,6 @@ import pytest
 from dualarm_repro.ledger.finding import entitled, finding_of
 from dualarm_repro.scene import Box
 from dualarm_repro.view.card import figure_html
-from dualarm_repro.view.crossing import nearest
 from dualarm_repro.view.labels import name_ends, name_points
 from dualarm_repro.view.legibility import faults
 from dualarm_repro.view.style import BLUE, ORANGE, WIDTH, house_style, ink
@@ -68,13 +67,6 @@ def test_way_to_the_nearest_box():
     point, on_box = nearest_to_boxes(track, _window(np.eye(3)))
     np.testing.assert_allclose(point, track[1])
     np.testing.assert_allclose(on_box, (0.0, 0.8, 0.5), atol=1e-12)
-
-
-def test_nearest_points_of_two_polylines():
-    one = np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
-    other = np.array([[-1.0, 0.0, 0.2], [1.0, 0.0, 0.2]])
-    a, b = nearest(one, other)
-    assert np.linalg.norm(a - b) == pytest.approx(0.2, abs=2e-3)
 
 
 def test_letters_are_dark_enough_on_white():

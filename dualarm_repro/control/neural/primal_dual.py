@@ -5,8 +5,9 @@ u = [x; y; z] with lower <= x <= upper, z >= 0 and
     M = [I, -A^T, G^T;  A, 0, 0;  -G, 0, 0],   p = [-target; -b; h],
     e(u) = u - Proj(u - (M u + p)),            du/dt = -gamma (I + M^T) e(u).
 
-Rest points are the minimisers. The iteration u -= |e|^2 / |(I + M^T) e|^2 (I + M^T) e is the one of
-B. He, Appl. Math. Optim. 35, 1997, known there and in later work as method E47.
+Rest points u* are the minimisers. M being monotone, (u - u*) . (I + M^T) e >= |e|^2 for each; the
+iteration u -= |e|^2 / |(I + M^T) e|^2 (I + M^T) e projects onto that half-space, after B. He, A new
+method for a class of linear variational inequalities, Math. Programming 66, 1994.
 """
 
 from __future__ import annotations

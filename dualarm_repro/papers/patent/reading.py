@@ -8,10 +8,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ...control.frozen import FrozenScenario
+from ...control.frozen import FrozenScenario, arm_pair
 from ...control.neural.network_settings import NetworkSettings
 from ...control.settings import ControllerSettings
-from .document import CROSSING, frozen
+from ...errors import InputError
+from .document import CROSSING, frozen, scenario_file
+from .studies.crossings import CROSSINGS, drawn, tipped_arm
 
 #: Assumption to field of the settings, or entry of a scenario, that has another name.
 _PLACES = {
@@ -43,8 +45,38 @@ LIMITS = ("limit_form", "limit_gain", "limit_margin")
 
 
 def crossing(assumed: Mapping[str, Any], *names: str) -> FrozenScenario:
-    """The frozen crossing of the assumed robot, with what the named assumptions say about it."""
-    return frozen(CROSSING[assumed["robot"]], **_fields(assumed, names))
+    """The crossing of the assumed robot, base distance and tip, with what the names say about it.
+
+    Where it is not a frozen file, it is the one that was searched again for these three.
+
+    Raises
+    ------
+    InputError
+        The search found none.
+    """
+    robot, distance, tip = (assumed[name] for name in ("robot", "base_distance", "tip"))
+    name, timing = CROSSING[robot], _fields(assumed, names)
+    if tip == "flange" and distance == scenario_file(name).base_distance:
+        return frozen(name, **timing)
+    table = CROSSINGS.load()
+    wanted = (
+        (table["robot"] == robot) & (table["base_distance"] == distance) & (table["tip"] == tip)
+    )
+    number = int(table.loc[wanted, "draw"].iloc[0])
+    if number < 0:
+        raise InputError(
+            "crossing", "base_distance", distance, "one at which a search found a task"
+        )
+    system = arm_pair(tipped_arm(robot, tip), distance)
+    task, arms = drawn(system, number), arm_title(robot, tip)
+    title = f"{arms}, bases {distance:g} m apart, whose arms cross without avoidance"
+    return FrozenScenario(title, system, task.circles(system, **timing), task.q0)
+
+
+def arm_title(robot: str, tip: str) -> str:
+    """Which arms follow the paths, and with what."""
+    name = {"panda": "Two Pandas", "xarm7": "Two xArm 7"}[robot]
+    return name if tip == "flange" else f"{name} with their fingertips on the paths"
 
 
 def controller_settings(assumed: Mapping[str, Any], *names: str) -> ControllerSettings:

@@ -9,7 +9,12 @@ from dualarm_repro.control.neural.fixed_step import divergence_time, simulate_ne
 from dualarm_repro.control.neural.network import network_rate, problem_rate
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.optimality import optimality
-from dualarm_repro.control.neural.primal_dual import simulate_primal_dual
+from dualarm_repro.control.neural.primal_dual import (
+    direction,
+    iterate,
+    projection_error,
+    simulate_primal_dual,
+)
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import solve
@@ -134,6 +139,24 @@ def test_unknown_integrator(crossing):
             NetworkSettings(),
             integrator="lsoda",
         )
+
+
+def test_a_step_of_the_primal_dual_network_leads_nearer_to_the_solution():
+    rng = np.random.default_rng(7)
+    p = random_problem(rng, 4, 4)
+    size = p.size + len(p.b) + len(p.h)
+    solution = np.zeros(size)
+    assert iterate(p.parts, solution, 500_000, 1e-10) < 500_000
+    np.testing.assert_allclose(solution[: p.size], solve(p).x, atol=1e-6)
+    e, d = np.empty(size), np.empty(size)
+    for _ in range(50):
+        u = 3.0 * rng.normal(size=size)
+        projection_error(p.parts, u, e)
+        direction(p.parts, e, d)
+        assert (u - solution) @ d >= e @ e - 1e-8
+        before = np.linalg.norm(u - solution)
+        iterate(p.parts, u, 1, 0.0)
+        assert np.linalg.norm(u - solution) < before
 
 
 def test_primal_dual_improves_with_iterations(crossing):

@@ -24,10 +24,13 @@ from dualarm_repro.papers.patent.document import (
     run,
     scenario_file,
 )
+from dualarm_repro.papers.patent.pages.contest import robust
 from dualarm_repro.papers.patent.pages.network.symbols import matrix_equation, symbols
 from dualarm_repro.papers.patent.pages.problem.method import STEPS, name, trace, traced_steps
 from dualarm_repro.papers.patent.pages.problem.program import URDFS, uncovered
 from dualarm_repro.papers.patent.problems import sample_problem
+from dualarm_repro.papers.patent.reading import crossing
+from dualarm_repro.papers.patent.studies.crossings import CROSSINGS, drawn, tipped_arm
 from dualarm_repro.papers.patent.studies.tasks import TASKS
 
 load()
@@ -77,6 +80,27 @@ def test_frozen_files_hold_the_recorded_draw(scenario):
     assert score(system, task, searched.wanted, ControllerSettings()) is not None
 
 
+def test_a_crossing_is_found_for_every_layout_and_stored():
+    table = CROSSINGS.load()
+    assert (table["draw"] >= 0).all()
+    assert len(table) == 16
+    assert CROSSINGS.spot_check(1, seed=3) == []
+    case = table.iloc[0].to_dict()
+    scenario = crossing(case)
+    system = arm_pair(tipped_arm(case["robot"], case["tip"]), case["base_distance"])
+    np.testing.assert_array_equal(scenario.q0, drawn(system, int(case["draw"])).q0)
+
+
+def test_every_kind_of_disturbance_disturbs():
+    for kind, size in (("state", 0.1), ("readings", 2e-3), ("model", 5e-3), ("delay", 5e-3)):
+        disturbed = robust._disturbed(kind, size, 0)
+        assert disturbed, kind
+        (value,) = disturbed.values()
+        if kind == "delay":
+            assert value.delay == 5
+    assert robust._disturbed("none", 0.0, 0) == {}
+
+
 def test_stored_study_is_current_and_large_enough():
     table = TASKS.load()
     counted = table[table["counts"].astype(bool)]
@@ -112,7 +136,25 @@ def test_rest_points_depend_on_the_penalty():
     ("item_id", "changes", "verdict"),
     [
         ("patent.fig02", {"inner_range": 0.0, "time_step": 0.002}, Verdict.UNDER_ASSUMPTION),
-        ("patent.fig02", {"base_distance": 1.0, "time_step": 0.01}, Verdict.NOT_REPRODUCED),
+        ("patent.fig02", {"tip": "fingertip"}, Verdict.UNDER_ASSUMPTION),
+        ("patent.fig02", {"distance_measure": "axis"}, Verdict.UNDER_ASSUMPTION),
+        (
+            "patent.fig02",
+            {"distance_measure": "axis", "base_distance": 0.8},
+            Verdict.NOT_REPRODUCED,
+        ),
+        ("patent.claim_efficient", {"exact_start": "nothing"}, Verdict.UNDER_ASSUMPTION),
+        ("patent.claim_efficient", {"exact_start": "before"}, Verdict.NOT_REPRODUCED),
+        (
+            "patent.claim_robust_state",
+            {"robustness_measure": "largest_tip_error"},
+            Verdict.NOT_REPRODUCED,
+        ),
+        (
+            "patent.claim_robust_model",
+            {"robustness_measure": "peak_acceleration"},
+            Verdict.UNDER_ASSUMPTION,
+        ),
         ("patent.claim_limits", {"limit_form": "velocity"}, Verdict.NOT_REPRODUCED),
         ("patent.eq_min_energy", {"energy_weight": "inertia"}, Verdict.NOT_REPRODUCED),
         ("patent.claim_limits", {"fast_duration": 2.0}, Verdict.NOT_REPRODUCED),

@@ -1,5 +1,5 @@
 """Stored studies of `patent`."""
 
-from . import tasks
+from . import crossings, tasks
 
-__all__ = ["tasks"]
+__all__ = ["crossings", "tasks"]

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .....control.axis_distance import axis_distances, largest_thickness, nearest_points
 from .....control.frozen import FrozenScenario
 from .....control.motion import Motion
 from .....control.settings import ControllerSettings
@@ -14,8 +15,9 @@ from .....control.simulate import pseudo_inverse
 from .....control.trajectory import trajectories
 from .....ledger import REGISTRY, Assumed, Bounded, Is, Result
 from .....ledger.captions import captions
-from .....view.arm_drawings import skeleton
 from .....view.control_figures import comparison_figure
+from .....view.crossing import Crossing
+from .....view.link_bodies import Body
 from .....view.scene3d import Scene3D
 from .....view.style import MASTER, SLAVE
 from ...document import run
@@ -43,10 +45,13 @@ caption = captions(__file__)
 )
 def comparison(assumed: Assumed) -> Result:
     """Figure 2: one task with the avoidance rows off and on."""
-    scenario = crossing(assumed, "base_distance", "duration", "time_law", "capsules")
+    scenario = crossing(assumed, "duration", "time_law")
     settings = controller_settings(assumed, *AVOIDANCE, "feedback_gain")
-    dt = assumed["time_step"]
+    dt, by_axis = assumed["time_step"], assumed["distance_measure"] == "axis"
+    if by_axis:
+        settings = _between_axes(settings, scenario)
     naive, motion = run(scenario, pseudo_inverse(settings), dt), run(scenario, settings, dt)
+    axes = float(axis_distances(scenario.system, motion.q).min())
     fastest = _path_speed(scenario)
     parts = scenario.system, scenario.circles
     table = trajectories({"without": (*parts, naive), "with": (*parts, motion)})
@@ -54,7 +59,8 @@ def comparison(assumed: Assumed) -> Result:
         obtained={
             "naive_distance": naive.smallest_distance,
             "distance": motion.smallest_distance,
-            "shortfall": settings.inner - motion.smallest_distance,
+            "axis_distance": axes,
+            "shortfall": settings.inner - (axes if by_axis else motion.smallest_distance),
             "tip_error": motion.largest_error,
             "tip_steps": motion.largest_error / (fastest * dt),
             "completed": motion.completed,
@@ -65,13 +71,20 @@ def comparison(assumed: Assumed) -> Result:
         table=table,
         caption=caption("fig02", scenario=scenario, naive=naive, motion=motion, step=fastest * dt),
         alt=(
-            "Two pictures of two arms, crossing each other without avoidance and apart with it; "
-            "below, their distance over time, which falls below zero without avoidance and stays "
-            "above the inner range with it."
+            "Two pictures of two arms with their capsules, which overlap without avoidance and are "
+            "apart with it, a line between the nearest points; below, their distance over time, "
+            "which falls below zero without avoidance and stays above the inner range with it."
         ),
         figure=lambda: _comparison_figure(scenario, settings, naive, motion),
         scene=lambda: _scene(scenario, motion),
     )
+
+
+def _between_axes(settings: ControllerSettings, scenario: FrozenScenario) -> ControllerSettings:
+    """Ranges between link axes, wider by the thickness of the two thickest links that move."""
+    thickness = largest_thickness(scenario.system)
+    ranges = {"inner": settings.inner + thickness, "outer": settings.outer + thickness}
+    return settings.changed(surface=False, **ranges)
 
 
 def _path_speed(scenario: FrozenScenario) -> float:
@@ -80,17 +93,19 @@ def _path_speed(scenario: FrozenScenario) -> float:
     return float(np.linalg.norm(velocities, axis=-1).max())
 
 
-def _skeletons(scenario: FrozenScenario, q: np.ndarray) -> list[np.ndarray]:
-    arms = scenario.system.arms
-    return [
-        skeleton(p.arm, part, p.placement) for p, part in zip(arms, np.split(q, 2), strict=True)
-    ]
-
-
 def _tip_paths(scenario: FrozenScenario) -> list[np.ndarray]:
     times = np.linspace(0.0, scenario.period, 121)
     points = np.array([scenario.circles.at(t)[0] for t in times])
     return [points[:, 0], points[:, 1]]
+
+
+def _crossing(scenario: FrozenScenario, q: np.ndarray, step: int) -> Crossing:
+    """Both arms at one instant, with the nearest points of their links."""
+    left, right = scenario.system.arms
+    halves = np.split(q, 2)
+    bodies = Body(left, halves[0], MASTER, step), Body(right, halves[1], SLAVE, step)
+    first, second = _tip_paths(scenario)
+    return Crossing(bodies, (first, second), nearest_points(scenario.system, q))
 
 
 def _comparison_figure(
@@ -98,15 +113,14 @@ def _comparison_figure(
 ) -> Any:
     worst = int(naive.distance.argmin())
     at = min(worst, len(motion.q) - 1)
-    paths = _tip_paths(scenario)
     return comparison_figure(
         {
             "without avoidance": (naive.time, naive.distance),
             "with avoidance": (motion.time, motion.distance),
         },
         {
-            "without avoidance": [*_skeletons(scenario, naive.q[worst]), *paths],
-            "with avoidance": [*_skeletons(scenario, motion.q[at]), *paths],
+            "without avoidance": _crossing(scenario, naive.q[worst], worst),
+            "with avoidance": _crossing(scenario, motion.q[at], at),
         },
         (settings.inner, settings.outer),
     )

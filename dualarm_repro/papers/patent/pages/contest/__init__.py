@@ -1,5 +1,5 @@
 """The solvers compared: operations until they are near, and the motions they make."""
 
-from . import motion, real_time, speed
+from . import motion, real_time, robust, speed
 
-__all__ = ["motion", "real_time", "speed"]
+__all__ = ["motion", "real_time", "robust", "speed"]

@@ -17,9 +17,17 @@ from .....control.convergence import (
     steps_in_a_row,
 )
 from .....control.neural.network_settings import NetworkSettings
-from .....control.operations import exact_cost, network_cost, primal_dual_cost
+from .....control.operations import (
+    exact_cost,
+    exact_cost_after,
+    network_cost,
+    primal_dual_cost,
+)
+from .....control.parts import ProgramStack
+from .....control.recorded import stacked
+from .....control.solvers import solve
 from .....instrument import Cost
-from .....ledger import REGISTRY, Assumed, Bounded, Generally, Is, Result
+from .....ledger import REGISTRY, Assumed, Bounded, Generally, Result
 from .....ledger.assumptions import alternatives
 from .....ledger.captions import captions
 from .....ledger.witnesses import is_open, one_for_each_side
@@ -31,14 +39,17 @@ checks = partial(REGISTRY.checks, page="patent/contest")
 caption = captions(__file__)
 NEWTON_STEPS = (1, 2, 4, 8)
 ITERATIONS = (1, 3, 10, 30, 100, 300)
-#: Problems in a row on which the network starts from its state before.
+#: Steps between the problems of the task that the network is run through; each hundredth counts.
+EVERY = 5
+#: Problems in a row that are timed.
 IN_A_ROW = 60
 _MOST_STEPS, _MOST_ITERATIONS = 30, 30_000
 #: Integrals of the gain at which the networks are looked at in continuous time.
 _FLOW = np.linspace(0.0, 25.0, 251)
 _LONG_FLOW = np.concatenate([[0.0], np.geomspace(0.1, 1500.0, 110)])
-_NAMES = {"active_set": "exact active set", "network": "network",
-          "primal_dual": "primal-dual network"}  # fmt: skip
+_NAMES = {"active_set": "exact, from nothing", "active_set_warm": "exact, from the set before",
+          "network": "network", "primal_dual": "primal-dual network",
+          "pseudo_inverse": "pseudo-inverse"}  # fmt: skip
 
 
 @checks(
@@ -118,49 +129,61 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
 
 @checks(
     "patent.claim_efficient",
-    samples=32,
+    samples=16,
     rules=[
-        Is("arrives", "a network comes within the threshold of x*", value=True),
-        Bounded("saved", "share of the operations of the exact method it saves", low="noticeable"),
+        Generally(
+            "arrived",
+            "problems on which a network comes within the threshold of x*",
+            at_least="nearly_all",
+            margin="margin",
+        ),
+        Bounded("saved", "share of all operations of the exact method it saves", low="noticeable"),
     ],
 )
 def faster_than_numerical(assumed: Assumed) -> Result:
     """Operations on problems in a row: exact active-set method against the best network."""
     threshold, cost = assumed["convergence_threshold"], assumed["function_cost"]
-    exact = sum(one.total(cost) for one in _exact_costs())
+    exact = np.array([one.total(cost) for one in _exact_costs(assumed["exact_start"])])
     rows = []
     for network in declared_networks():
-        steps, error = _in_a_row(network, threshold)
-        each = sum(one.total(cost) for one in _network_costs(network.penalty, in_a_row=True))
-        rows.append((network.penalty, network.factor, steps, error, 1.0 - steps * each / exact))
-    table = pd.DataFrame(rows, columns=["penalty", "p", "steps", "error [rad/s]", "saved"])
-    near = table[table["error [rad/s]"] <= threshold]
-    # The cheapest that is near enough, else the nearest.
-    best = near["saved"].idxmax() if len(near) else table["error [rad/s]"].idxmin()
+        steps = steps_taken(network, threshold)
+        step = np.array([one.total(cost) for one in _network_costs(network.penalty)])
+        arrived = steps > 0
+        # Where it does not arrive it has spent all the steps it was given.
+        own = np.where(arrived, steps, NEWTON_STEPS[-1]) * step
+        fewer = arrived & (own < exact)
+        rows.append(
+            (
+                *(network.penalty, network.factor, int(arrived.sum())),
+                float(np.median(steps[arrived])) if arrived.any() else np.nan,
+                int(fewer.sum()),
+                float(1.0 - own.sum() / exact.sum()),
+            )
+        )
+    table = pd.DataFrame(rows, columns=["penalty", "p", "arrived", "steps", "fewer", "saved"])
+    # Of those that arrive on the most problems the one that saves most.
+    best = max(range(len(table)), key=lambda k: (rows[k][2], rows[k][5]))
     network, found = declared_networks()[best], table.loc[best]
+    obtained = {
+        "arrived": {"count": int(found["arrived"]), "of": len(exact)},
+        "saved": float(found["saved"]),
+        "fewer": int(found["fewer"]),
+        "penalty": network.penalty,
+        "factor": network.factor,
+        "network_steps": float(found["steps"]) if found["arrived"] else None,
+        "exact_operations": float(exact.mean()),
+        "everywhere": int((table["arrived"] == len(exact)).sum()),
+        "tried": len(table),
+    }
     return Result(
-        obtained={
-            "arrives": len(near) > 0,
-            "saved": float(found["saved"]),
-            "penalty": network.penalty,
-            "factor": network.factor,
-            "network_steps": int(found["steps"]),
-            "exact_operations": exact / IN_A_ROW,
-            "near_enough": len(near),
-            "tried": len(table),
-        },
+        obtained=obtained,
         measured={
             f"{e.solver}_{e.effort}_us": [e.microseconds, e.low, e.high] for e in _entries(network)
         },
         table=table,
-        caption=caption(
-            "claim_efficient",
-            problems=IN_A_ROW,
-            assumed=assumed,
-            error=float(found["error [rad/s]"]),
-        ),
-        alt="Largest error against time a problem: the exact method at the bottom left, both "
-        "networks above and to the right.",
+        caption=caption("claim_efficient", problems=len(recorded(EVERY)), assumed=assumed),
+        alt="Largest error against time a problem: the exact method at the bottom left, from the "
+        "set before further left, both networks above, the pseudo-inverse at the top left.",
         figure=lambda: contest_figure(_series(_entries(network)), 1e-12),
     )
 
@@ -197,8 +220,17 @@ def network_curves(network: NetworkSettings) -> list[np.ndarray]:
 
 
 @memo(64)
-def _in_a_row(network: NetworkSettings, threshold: float) -> tuple[int, float]:
-    return steps_in_a_row(busiest(IN_A_ROW), network, threshold, NEWTON_STEPS[-1])
+def steps_taken(network: NetworkSettings, threshold: float) -> np.ndarray:
+    """Steps on every problem that is counted, the network run through all between them as well."""
+    steps = steps_in_a_row(*in_a_row(), network, threshold, NEWTON_STEPS[-1])
+    return steps[:: 100 // EVERY]
+
+
+@memo()
+def in_a_row() -> tuple[ProgramStack, np.ndarray]:
+    """The problems that the network is run through, and their minimisers."""
+    problems = recorded(EVERY)
+    return stacked(problems), np.array([solve(p).x for p in problems])
 
 
 def _flow_times(k: int, threshold: float, gamma: float) -> tuple[float | None, float | None]:
@@ -238,10 +270,9 @@ def primal_dual_curves() -> list[np.ndarray]:
 
 
 @memo(64)
-def _network_costs(penalty: str, in_a_row: bool = False) -> list[Cost]:
+def _network_costs(penalty: str) -> list[Cost]:
     """A step of the network on each problem; it does not depend on p and sigma."""
-    problems = busiest(IN_A_ROW) if in_a_row else recorded(100)
-    return [network_cost(p, NetworkSettings(penalty=penalty)) for p in problems]
+    return [network_cost(p, NetworkSettings(penalty=penalty)) for p in recorded(100)]
 
 
 @memo()
@@ -250,8 +281,13 @@ def _primal_dual_costs() -> list[float]:
 
 
 @memo()
-def _exact_costs() -> list[Cost]:
-    return [exact_cost(p) for p in busiest(IN_A_ROW)]
+def _exact_costs(start: str) -> list[Cost]:
+    """The exact method on each problem, from nothing or from what pressed in the one before."""
+    if start == "nothing":
+        return [exact_cost(p) for p in recorded(100)]
+    every, apart = recorded(EVERY), 100 // EVERY
+    before = [every[max(k - 1, 0)] for k in range(0, len(every), apart)]
+    return [exact_cost_after(*pair) for pair in zip(recorded(100), before, strict=True)]
 
 
 @memo(8)

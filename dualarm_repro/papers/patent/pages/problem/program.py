@@ -25,8 +25,8 @@ from .....ledger import REGISTRY, Assumed, Bounded, Is, NoOriginal, Residual, Re
 from .....ledger.captions import captions
 from .....scene.clearance import distances
 from .....tracking import memo
-from ...document import COARSE_STEP, SEED, frozen, redundant_arm, run
-from ...reading import LIMITS, controller_settings, crossing
+from ...document import COARSE_STEP, CROSSING, SEED, frozen, redundant_arm, run
+from ...reading import LIMITS, controller_settings
 from .velocities import STILL
 
 checks = partial(REGISTRY.checks, page="patent/problem")
@@ -97,7 +97,7 @@ def joint_limits(assumed: Assumed) -> Result:
 )
 def avoidance_rows(assumed: Assumed) -> Result:
     """Rows, differences of the distances, and what motion within the rows does to them."""
-    scenario = crossing(assumed, "capsules")
+    scenario = frozen(CROSSING[assumed["robot"]], capsules=assumed["capsules"])
     settings = controller_settings(assumed, "avoidance_form", "pair_selection")
     near = run(scenario, ControllerSettings(), COARSE_STEP)
     middle = 0.5 * (ControllerSettings().inner + ControllerSettings().outer)
