@@ -81,8 +81,7 @@ def more_robust_against_a_push(assumed: Assumed) -> Result:
     calm, pushed = _primal_dual(count, "none", 0.0, 0), _primal_dual(count, "state", size, 0)
     sweep = {"primal_dual": _both(pushed, calm)}
     for name, network in SWEEP.items():
-        pair = (_network(network, *how, 0) for how in (("state", size), ("none", 0.0)))
-        sweep[name] = _both(*pair)
+        sweep[name] = _both(_network(network, "state", size, 0), _network(network, "none", 0.0, 0))
     return replace(result, obtained={**result.obtained, "sweep": sweep})
 
 
