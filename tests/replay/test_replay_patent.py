@@ -10,7 +10,13 @@ import pytest
 from exported import Export, columns
 from replayed_panda import Pair, optimality_residual
 
-ITEMS = ["patent.fig02", "patent.claim_limits", "patent.claim_two_ranges", "patent.eq_integration"]
+ITEMS = [
+    "patent.fig02",
+    "patent.claim_accuracy",
+    "patent.claim_limits",
+    "patent.claim_two_ranges",
+    "patent.eq_integration",
+]
 JOINTS = [f"{arm}_{{}}{k} [{{}}]" for arm in ("left", "right") for k in range(1, 8)]
 #: Declared settings that the exported items do not list: gains and margins of the merged bounds.
 FEEDBACK, LIMIT_GAIN, MARGIN, DAMPER, OUTER, INNER = 10.0, 5.0, 0.05, 5.0, 0.10, 0.03
@@ -137,3 +143,21 @@ def test_the_network_in_continuous_time(export, pair):
     least = min(one[1] for one in looked)
     obtained = export.obtained("patent.eq_integration")["distance"]
     assert obtained - 1e-9 < least < obtained + 1e-5
+
+
+def test_the_accuracy_of_the_network_from_rest_and_from_a_random_state(export, pair):
+    obtained, table = (
+        export.obtained("patent.claim_accuracy"),
+        export.table("patent.claim_accuracy"),
+    )
+    errors = {}
+    for name in dict.fromkeys(table["motion"]):
+        one = motion(export, "patent.claim_accuracy", name)
+        q, every = joints(one, "q", "rad"), slice(None, None, max(1, len(one["motion"]) // 400))
+        tips = np.array([pair.distance(row)[0] for row in q[every]])
+        errors[name] = np.linalg.norm(tips - paths(one)[every], axis=2).max()
+    random = errors.pop("random state")
+    (rest,) = errors.values()
+    # Sampled every so often, so that the largest may lie between; the files keep ten digits.
+    assert 0.5 * obtained["tip_error"] <= rest <= obtained["tip_error"] + 1e-6
+    assert random <= obtained["tip_error_random_start"] + 1e-6
