@@ -166,6 +166,12 @@ def test_rest_points_depend_on_the_penalty():
         ("patent.claim_gain_time_varying", {"compared_gain": "start"}, Verdict.UNDER_ASSUMPTION),
         ("patent.claim_gain_time_varying", {"compared_gain": "ceiling"}, Verdict.NOT_REPRODUCED),
         ("patent.claim_vs_pinv", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_pinv_slow", {}, Verdict.NOT_REPRODUCED),
+        (
+            "patent.claim_pinv_slow",
+            {"pseudo_inverse_factor": "singular_values"},
+            Verdict.UNDER_ASSUMPTION,
+        ),
         ("patent.claim_real_time", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
         ("patent.claim_real_time", {"accuracy_bound": 1e-5}, Verdict.NOT_REPRODUCED),
         ("patent.claim_redundant_motion", {"energy_weight": "inertia"}, Verdict.NOT_REPRODUCED),
