@@ -15,6 +15,7 @@ from .neural.network_settings import NetworkSettings
 from .neural.primal_dual import iterate
 from .problem import QuadraticProgram
 from .settings import ControllerSettings
+from .singular_values import least_norm_by_singular_values
 from .solvers import solve
 from .system import ArmSystem
 from .warm_start import least_distance_from
@@ -36,9 +37,11 @@ def exact_cost_after(p: QuadraticProgram, before: QuadraticProgram) -> Cost:
     return Instrument().cost(least_distance_from, p.parts, old.z > _PRESSES, at_bound)
 
 
-def pseudo_inverse_cost(p: QuadraticProgram) -> Cost:
-    """J^+ dr/dt by the Cholesky factor of J J^T."""
+def pseudo_inverse_cost(p: QuadraticProgram, *, singular_values: bool = False) -> Cost:
+    """J^+ dr/dt by the Cholesky factor of J J^T, or by singular values as libraries do."""
     x, multipliers = np.empty(p.size), np.empty(len(p.b))
+    if singular_values:
+        return Instrument().cost(least_norm_by_singular_values, p.target, p.A, p.b, x)
     return Instrument().cost(least_norm, p.target, p.A, p.b, x, multipliers)
 
 

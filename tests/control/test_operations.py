@@ -30,6 +30,10 @@ def test_roots_are_functions_and_the_quadratic_penalty_has_no_others(p):
     assert exact_cost(p).functions > 0
 
 
+def test_singular_values_cost_several_times_the_cholesky_factor(p):
+    assert pseudo_inverse_cost(p, singular_values=True).total() > 4 * pseudo_inverse_cost(p).total()
+
+
 def test_the_pseudo_inverse_is_the_cheapest(p):
     n, m = p.size, len(p.b)
     found = pseudo_inverse_cost(p).total()

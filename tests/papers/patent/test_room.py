@@ -1,5 +1,7 @@
 """The room of `patent`: every item is attempted, and the findings stand on their own."""
 
+import re
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -91,13 +93,16 @@ def test_a_crossing_is_found_for_every_layout_and_stored():
     np.testing.assert_array_equal(scenario.q0, drawn(system, int(case["draw"])).q0)
 
 
-def test_every_kind_of_disturbance_disturbs():
-    for kind, size in (("state", 0.1), ("readings", 2e-3), ("model", 5e-3), ("delay", 5e-3)):
-        disturbed = robust._disturbed(kind, size, 0)
-        assert disturbed, kind
-        (value,) = disturbed.values()
-        if kind == "delay":
-            assert value.delay == 5
+def test_every_kind_of_disturbance_is_of_its_size():
+    (push,) = robust._disturbed("state", 0.1, 0).values()
+    assert np.abs(push).min() == np.abs(push).max() == 0.1
+    assert (push == push[0]).all()
+    noisy = robust._disturbed("readings", 2e-3, 0)["readings"]
+    assert noisy.noise.std() == pytest.approx(2e-3, rel=0.02)
+    assert (robust._disturbed("readings", 2e-3, 1)["readings"].noise != noisy.noise).any()
+    wrong = robust._disturbed("model", 5e-3, 0)["readings"]
+    np.testing.assert_array_equal(np.abs(wrong.offset), 5e-3)
+    assert robust._disturbed("delay", 5e-3, 0)["readings"].delay == 5
     assert robust._disturbed("none", 0.0, 0) == {}
 
 
@@ -161,6 +166,12 @@ def test_rest_points_depend_on_the_penalty():
         ("patent.claim_gain_time_varying", {"compared_gain": "start"}, Verdict.UNDER_ASSUMPTION),
         ("patent.claim_gain_time_varying", {"compared_gain": "ceiling"}, Verdict.NOT_REPRODUCED),
         ("patent.claim_vs_pinv", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
+        ("patent.claim_pinv_slow", {}, Verdict.NOT_REPRODUCED),
+        (
+            "patent.claim_pinv_slow",
+            {"pseudo_inverse_factor": "singular_values"},
+            Verdict.UNDER_ASSUMPTION,
+        ),
         ("patent.claim_real_time", {"operation_rate": 1e7}, Verdict.NOT_REPRODUCED),
         ("patent.claim_real_time", {"accuracy_bound": 1e-5}, Verdict.NOT_REPRODUCED),
         ("patent.claim_redundant_motion", {"energy_weight": "inertia"}, Verdict.NOT_REPRODUCED),
@@ -190,6 +201,18 @@ def test_every_sentence_of_the_text_has_its_place():
         "[0090]-[0091]; [0093]; [0096]",
         "[0097]",
     ]
+
+
+#: Paragraphs that only announce or close: field, headings, and the opening of a list.
+ANNOUNCE = {1, 5, 6, 31, 36, 37, 84, 88, 94}
+
+
+def test_every_paragraph_of_the_text_is_the_place_of_a_sentence():
+    named = set()
+    for one in REGISTRY.papers["patent"].sentences:
+        for first, last in re.findall(r"\[(\d{4})\](?:-\[(\d{4})\])?", one.place):
+            named |= set(range(int(first), int(last or first) + 1))
+    assert set(range(1, 98)) - named == ANNOUNCE
 
 
 def test_no_solver_completes_a_task_whose_bounds_it_breaks():
