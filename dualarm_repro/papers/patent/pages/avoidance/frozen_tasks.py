@@ -16,16 +16,17 @@ from .....control.operations import control_cost, network_control_cost
 from .....control.settings import ControllerSettings
 from .....control.simulate import pseudo_inverse
 from .....control.trajectory import trajectories
-from .....ledger import REGISTRY, Assumed, Bounded, Residual, Result
+from .....ledger import REGISTRY, Assumed, Bounded, Generally, Residual, Result
 from .....ledger.captions import captions
 from .....tracking import memo
 from .....view.control_figures import damper_figure
 from ...document import COARSE_STEP, CONTROL_STEP, frozen, run
 from ...reading import LIMITS, controller_settings
-from .random_tasks import counted_tasks
+from .random_tasks import admitted_tasks, counted_tasks
 
 checks = partial(REGISTRY.checks, page="patent/avoidance")
 caption = captions(__file__)
+_nearly_all = partial(Generally, at_least="nearly_all", margin="margin")
 
 
 @checks(
@@ -42,12 +43,24 @@ caption = captions(__file__)
         ),
         Bounded("speed_excess", "the QP, at most by [rad/s]", high=1e-9),
         Bounded("network_speed_excess", "the network, at most by [rad/s]", high=0.0),
+        _nearly_all("within", "admitted random tasks within all limits, by the exact QP"),
+        _nearly_all("network_within", "the same by the network"),
     ],
 )
 def respects_limits(assumed: Assumed) -> Result:
     """Angle limits on a task that drives joints to them, speed limits on the same task run fast."""
     settings = controller_settings(assumed, *LIMITS)
     slow, fast = frozen("limits"), frozen("limits", duration=assumed["fast_duration"])
+    table = admitted_tasks(assumed)
+    within = {
+        name: {
+            "count": int(
+                (table[[f"{name}_beyond_angle", f"{name}_beyond_speed"]] <= 1e-9).all(axis=1).sum()
+            ),
+            "of": len(table),
+        }
+        for name in ("slack", "network")
+    }
     calm, motions = _three(slow, settings, COARSE_STEP), _three(fast, settings, CONTROL_STEP)
     named = {
         f"{way}, {pace}": (scenario.system, scenario.circles, motion)
@@ -62,6 +75,8 @@ def respects_limits(assumed: Assumed) -> Result:
             "naive_speed_excess": motions[0].speed_excess,
             "speed_excess": motions[1].speed_excess,
             "network_speed_excess": motions[2].speed_excess,
+            "within": within["slack"],
+            "network_within": within["network"],
             "fast_slack": float(motions[1].slack.max()),
             "network_broken": list(motions[2].broken),
         },
