@@ -185,7 +185,7 @@ def against_pseudo_inverse(assumed: Assumed) -> Result:
     exact = [run(s, settings, dt) for s in (near, far)]
     counted = counted_tasks(assumed)
     leave = float((counted["naive_beyond_angle"] > 0).mean())
-    steps = step_operations(settings)
+    steps = step_operations(settings, assumed["function_cost"])
     period = max(steps.values()) / assumed["operation_rate"] / dt
     return Result(
         obtained={
@@ -236,7 +236,7 @@ def _changed(scenario: FrozenScenario, settings: ControllerSettings, motion: Mot
 
 
 @memo(64)
-def step_operations(settings: ControllerSettings) -> dict[str, float]:
+def step_operations(settings: ControllerSettings, function_cost: float) -> dict[str, float]:
     """Operations of one whole step of each solver where most rows are active."""
     scenario = frozen("crossing")
     motion = run(scenario, settings, COARSE_STEP)
@@ -244,10 +244,10 @@ def step_operations(settings: ControllerSettings) -> dict[str, float]:
     q, t = motion.q[k], float(motion.time[k])
     y = np.concatenate([motion.x[k], np.zeros(3 * len(scenario.system.arms))])
     return {
-        "qp": control_cost(*scenario.parts, settings, q, t).total(),
+        "qp": control_cost(*scenario.parts, settings, q, t).total(function_cost),
         "network": network_control_cost(
             *scenario.parts, settings, NetworkSettings(), CONTROL_STEP, q, t, y
-        ).total(),
+        ).total(function_cost),
     }
 
 

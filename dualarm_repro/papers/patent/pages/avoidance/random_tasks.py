@@ -11,6 +11,7 @@ from .....control.motion import FOLLOWED
 from .....control.neural.network_settings import NetworkSettings
 from .....control.operations import exact_cost, network_cost, pseudo_inverse_cost
 from .....control.settings import RowForm
+from .....instrument import Cost
 from .....ledger import REGISTRY, Assumed, Generally, Result, Share
 from .....ledger.captions import captions
 from .....tracking import memo
@@ -136,7 +137,9 @@ def completes(assumed: Assumed) -> Result:
 def slow_pseudo_inverse(assumed: Assumed) -> Result:
     """Operations of the pseudo-inverse against the cheaper of the exact QP and a network step."""
     factor = assumed["pseudo_inverse_factor"]
-    own, steps, exact = _operations(singular_values=factor == "singular_values")
+    cost = assumed["function_cost"]
+    counted = _operations(singular_values=factor == "singular_values")
+    own, steps, exact = ([one.total(cost) for one in each] for each in counted)
     slower = sum(a > min(b, c) for a, b, c in zip(own, steps, exact, strict=True))
     return Result(
         obtained={
@@ -150,8 +153,8 @@ def slow_pseudo_inverse(assumed: Assumed) -> Result:
 
 
 @memo()
-def _operations(*, singular_values: bool) -> tuple[list[float], ...]:
-    """Operations of the pseudo-inverse, of a network step and of the exact QP on each problem."""
+def _operations(*, singular_values: bool) -> tuple[tuple[Cost, ...], ...]:
+    """Costs of the pseudo-inverse, of a network step and of the exact QP on each problem."""
     network = NetworkSettings(penalty="quadratic")
     counted = (
         (
@@ -161,8 +164,7 @@ def _operations(*, singular_values: bool) -> tuple[list[float], ...]:
         )
         for p in recorded(100)
     )
-    own, steps, exact = zip(*([cost.total() for cost in costs] for costs in counted), strict=True)
-    return list(own), list(steps), list(exact)
+    return tuple(zip(*counted, strict=True))
 
 
 _QUALITIES = ("largest tip error [m]", "median peak acceleration [rad/s^2]")

@@ -39,7 +39,7 @@ def in_real_time(assumed: Assumed) -> Result:
     """Closed loop of the network at a fixed rate, in the precision of the processor."""
     dt, settings = assumed["time_step"], ControllerSettings()
     motion = _motion(10.0, dt, assumed["arithmetic"])
-    operations = step_operations(settings)["network"]
+    operations = step_operations(settings, assumed["function_cost"])["network"]
     rows = [(gamma, step, *_measures(_motion(gamma, step))) for gamma in GAINS for step in STEPS]
     table = pd.DataFrame(
         rows, columns=["gamma [1/s]", "step [s]", "tip error [m]", "distance [m]", "completed"]

@@ -49,12 +49,19 @@ def _late(motion: Motion) -> float:
     return float(np.median(motion.error[half:].max(axis=1)))
 
 
+def _left(motion: Motion, calm: Motion) -> float:
+    """Late error under a disturbance, as published; 0 where the disturbance hardly changes it,
+    since what is left is then the error of the calm motion."""
+    own, other = _late(motion), _late(calm)
+    return own if abs(own - other) > _noticeable() * other else 0.0
+
+
 #: Measure to what a disturbance adds to it; errors and distances are compared instant by instant,
 #: since the extremes of two motions lie at different times and hide what came between.
 MEASURES: dict[str, Callable[[Motion, Motion], float]] = {
     "largest_tip_error": lambda motion, calm: float((motion.error - calm.error).max()),
     "late_tip_error": lambda motion, calm: _late(motion) - _late(calm),
-    "late_residual": lambda motion, calm: _late(motion),
+    "late_residual": _left,
     "smallest_distance": lambda motion, calm: float((calm.distance - motion.distance).max()),
     "peak_acceleration": lambda motion, calm: motion.peak_acceleration - calm.peak_acceleration,
 }

@@ -76,7 +76,7 @@ def faster_than_primal_dual(assumed: Assumed) -> Result:
     others = [None if at is None else int(_counts()[at]) for at in reached_at]
     costs = [each.total(cost) for each in _network_costs(chosen.penalty)]
     rivals = [
-        None if n is None else n * _primal_dual_costs()[k]
+        None if n is None else n * _primal_dual_costs()[k].total(cost)
         for n, k in zip(others, busy, strict=True)
     ]
     own = [None if s is None else s * costs[k] for s, k in zip(steps, busy, strict=True)]
@@ -276,8 +276,8 @@ def _network_costs(penalty: str) -> list[Cost]:
 
 
 @memo()
-def _primal_dual_costs() -> list[float]:
-    return [primal_dual_cost(p).total() for p in recorded(100)]
+def _primal_dual_costs() -> list[Cost]:
+    return [primal_dual_cost(p) for p in recorded(100)]
 
 
 @memo()

@@ -107,7 +107,8 @@ def growing_gain(assumed: Assumed) -> Result:
         (g, kind): decay(activation, g, kind) for g in sorted({*GAINS, own}) for kind in _KINDS
     }
     found = {key: settled(errors, threshold) for key, errors in curves.items()}
-    ceiling = gain_ceiling(activation)
+    ceiling, mean = gain_ceiling(activation), mean_gain(activation, own, found[own, "growing"])
+    found[own, "mean"] = settled(decay(activation, mean, "start"), threshold)
     unstable = {g: divergence_time(g, CONTROL_STEP) for g in GAINS}
     drawn = {
         f"{label}, gamma = {g:g}": curves[g, kind]
@@ -122,6 +123,8 @@ def growing_gain(assumed: Assumed) -> Result:
             "constant_s": found[own, "start"],
             "ceiling_s": found[own, "ceiling"],
             "ceiling": ceiling,
+            "mean_s": found[own, "mean"],
+            "mean": mean,
         },
         table=pd.DataFrame(
             [(g, *(found[g, kind] for kind in _KINDS)) for g in sorted({*GAINS, own})],
@@ -145,6 +148,12 @@ def gain_ceiling(activation: str) -> float:
     """Largest gain that the fixed step allows, 1 / (step Psi'(0)) [1/s]."""
     slope = SLOPE_AT_ZERO[Activation(activation)]
     return 1.0 / (CONTROL_STEP * (slope if 0.0 < slope < np.inf else 1.0))
+
+
+def mean_gain(activation: str, gamma: float, until: float) -> float:
+    """Mean of min(gamma e^t, ceiling) over the steps until a time: the constant of equal effort."""
+    steps = np.arange(max(1, round(until / CONTROL_STEP)))
+    return float(np.minimum(gamma * np.exp(steps * CONTROL_STEP), gain_ceiling(activation)).mean())
 
 
 def decay(activation: str, gamma: float, kind: str) -> np.ndarray:
