@@ -81,7 +81,7 @@ def test_a_start_that_is_lost_was_within_reach(registry):
 
 
 def test_coarse_points_are_no_weld(registry):
-    fine = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 72})
+    fine = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 144})
     coarse = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 18})
     assert fine.verdict.meets_print
     assert coarse.verdict is Verdict.NOT_REPRODUCED
