@@ -32,10 +32,10 @@ class Offset(NamedTuple):
     step : float
         Largest turn of a joint from one point to the next [rad].
     seam : float
-        Largest distance of the tip of the torch from the seam [m].
+        Largest distance of the tip of the torch from the seam, of the workpiece as the carrier
+        holds it that loses more [m].
     grips : float
-        Largest distance of the places at which the two carriers hold the origin of the workpiece
-        [m].
+        Largest distance of the places at which the two carriers hold one end of the main pipe [m].
     """
 
     step: float
@@ -133,11 +133,12 @@ def interpolation_offset(cell: Cell, jobs: Jobs, seam: np.ndarray, parts: int = 
     flange, fixed = cell.bases[WELDER] @ cell.arms[WELDER].fk(q[:, WELDER]), cell.flanges[WELDER][0]
     lever = fixed[:3, :3].T @ cell.lever_arms[WELDER][0]
     tip = flange[:, :3, :3] @ lever + flange[:, :3, 3]
-    local = np.einsum("nji,nj->ni", held[0][:, :3, :3], tip - held[0][:, :3, 3])
+    local = [np.einsum("nji,nj->ni", T[:, :3, :3], tip - T[:, :3, 3]) for T in held]
+    ends = [cell.pipe_axes[0] @ T[:, :3, :3].swapaxes(1, 2) + T[:, None, :3, 3] for T in held]
     return Offset(
         step=float(abs(np.diff(motion.q, axis=0)).max()),
-        seam=float(cKDTree(seam).query(local)[0].max()),
-        grips=float(np.linalg.norm(held[0][:, :3, 3] - held[1][:, :3, 3], axis=1).max()),
+        seam=float(cKDTree(seam).query(np.concatenate(local))[0].max()),
+        grips=float(np.linalg.norm(ends[0] - ends[1], axis=2).max()),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from .placement import Jobs, Placement
 from .seam import Seam
 
 _STEPS = 12
+_STILL, _QUARTER = 1e-6, 0.5 * np.pi  # [rad], how far joints at rest and those of the welder may go
 
 
 class TorchAngles(NamedTuple):
@@ -46,28 +47,47 @@ def torch_angles(cell: Cell, jobs: Jobs, seam: Seam) -> TorchAngles:
     return TorchAngles(np.arctan2(y, x), np.arcsin(np.clip(z, -1.0, 1.0)))
 
 
-def retract(cell: Cell, centre: np.ndarray, point: int, length: float) -> Jobs:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _FromPosture(Cell):
+    """A cell whose joints stay near those of a posture (3, 6), so on its branch [rad]."""
+
+    posture: np.ndarray
+
+    def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
+        low, high = super().limits(robot)
+        start, way = self.posture[robot], _QUARTER if robot == WELDER else _STILL
+        return np.maximum(low, start - way), np.minimum(high, start + way)
+
+
+def retract(cell: Cell, jobs: Jobs, point: int, length: float) -> Jobs:
     """The way out along the torch from a seam point and back in, the workpiece at rest.
 
-    Its status says whether the arms reach it within limits, away from singularities and free of
-    contact; the seam points of the result are those of the way.
+    It begins with the joints that the first job has at that point. Its status says whether the
+    welder can go on from there within limits and a quarter turn of every joint, away from
+    singularities and free of contact; the seam points of the result are those of the way.
 
     Parameters
     ----------
-    centre : ndarray (3,)
-        Position of the workpiece [m].
+    jobs : Jobs
+        The weld, every robot of which has a path.
     length : float
         How far the tip is drawn back [m].
     """
     far = length * np.concatenate([np.linspace(0, 1, _STEPS), np.linspace(1, 0, _STEPS)[1:-1]])
-    still = [np.repeat(cell.flanges[k, point : point + 1], len(far), axis=0) for k in range(3)]
+
+    def held(values: np.ndarray) -> np.ndarray:
+        return np.repeat(values[point : point + 1], len(far), axis=0)
+
+    still = np.stack([held(flanges) for flanges in cell.flanges])
     still[WELDER][:, :3, 3] -= far[:, np.newaxis] * cell.torch_axis[point]
-    way = replace(
+    there = replace(
         cell,
-        rotations=np.repeat(cell.rotations[point : point + 1], len(far), axis=0),
-        flanges=np.stack(still),
-        references=np.repeat(cell.references[:, point : point + 1], len(far), axis=1),
-        torch_axis=np.repeat(cell.torch_axis[point : point + 1], len(far), axis=0),
-        seam=np.repeat(cell.seam[point : point + 1], len(far), axis=0),
+        rotations=held(cell.rotations),
+        flanges=still,
+        references=np.stack([held(points) for points in cell.references]),
+        torch_axis=held(cell.torch_axis),
+        seam=held(cell.seam),
     )
-    return Placement(way, Objective(weights="equal")).jobs([centre])
+    given = {one.name: getattr(there, one.name) for one in fields(Cell) if one.init}
+    way = _FromPosture(**given, posture=jobs.q[0, :, point])
+    return Placement(way, Objective(weights="equal")).jobs(jobs.centres[:1])

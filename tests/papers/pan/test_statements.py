@@ -80,8 +80,29 @@ def test_a_start_that_is_lost_was_within_reach(registry):
     assert 0 < found["lost"] < found["begun"] == begun.sum() < len(begun)
 
 
+def test_a_region_in_which_no_start_is_lost(registry):
+    whole = {"search_box": [[0.0, 0.1], [0.0, 0.1], [0.6, 0.7]]}
+    found = evaluate(registry, "pan.claim_bad_start", whole)
+    assert found.result.obtained["lost"] == 0 < found.result.obtained["begun"]
+    assert found.verdict is Verdict.NOT_REPRODUCED
+
+
+def test_contact_with_the_floor_is_no_collision_of_robots(registry):
+    """The floor is no obstacle of the document; a short pipe brings the arms to the workpiece."""
+
+    def found(**changes):
+        return evaluate(registry, "pan.claim_meets_collision", changes)
+
+    declared, bare = found(), found(floor="absent")
+    assert declared.verdict is bare.verdict is Verdict.NOT_REPRODUCED
+    assert declared.result.obtained["floor_alone"] > 0 == bare.result.obtained["floor_alone"]
+    short = found(workpiece_length=0.3)
+    assert short.verdict is Verdict.UNDER_ASSUMPTION
+    assert not any("floor" in pair for pair in short.result.obtained["pairs"])
+
+
 def test_coarse_points_are_no_weld(registry):
-    fine = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 72})
+    fine = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 144})
     coarse = evaluate(REGISTRY, "pan.claim_joint_sequence", {"seam_points": 18})
     assert fine.verdict.meets_print
     assert coarse.verdict is Verdict.NOT_REPRODUCED

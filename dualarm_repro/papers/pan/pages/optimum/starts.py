@@ -6,13 +6,16 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+import pandas as pd
 
 from .....ledger import REGISTRY, Assumed, Bounded, Result
 from .....ledger.captions import captions
+from .....scene.scene import FLOOR
 from .....view.landscape import statuses_figure
 from .....welding import Placement, Status, extreme_position
 from .....welding.landscape import reaches_point
-from ...reading import SPACING, STARTS, Measure, Problem, nothing_feasible, surveyed
+from .....welding.placement import blocks
+from ...reading import SPACING, STARTS, Job, Measure, Problem, nothing_feasible, surveyed
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
@@ -37,10 +40,11 @@ def bad_start(assumed: Assumed) -> Result:
     grid = surveyed(task)
     begun = reaches_point(task.job.cell(), grid.points, 0)
     no_path = np.isin(grid.status, (Status.OUT_OF_REACH, Status.JOINT_LIMITS))
-    found = Status(int(np.bincount(grid.status[begun & no_path]).argmax())) if begun.any() else None
+    lost = grid.status[begun & no_path]
+    found = Status(int(np.bincount(lost).argmax())) if len(lost) else None
     return Result(
         obtained={
-            "lost": int((begun & no_path).sum()),
+            "lost": len(lost),
             "begun": int(begun.sum()),
             "share": float(no_path[begun].mean()) if begun.any() else None,
             "mostly": found.name.lower().replace("_", " ") if found is not None else None,
@@ -54,18 +58,42 @@ def bad_start(assumed: Assumed) -> Result:
 @checks(
     "pan.claim_meets_collision",
     rules=[
-        Bounded("colliding", "positions with full paths on which bodies touch", low=1),
+        Bounded(
+            "colliding",
+            "positions with full paths on which a robot touches another or the workpiece",
+            low=1,
+        ),
     ],
 )
 def meets_collision(assumed: Assumed) -> Result:
-    """Positions of the grid at which all robots have paths and bodies touch."""
-    grid = surveyed(Problem.of(assumed, _ANY_MEASURE))
+    """Positions of the grid at which all robots have paths and bodies touch, the floor aside."""
+    task = Problem.of(assumed, _ANY_MEASURE)
+    grid = surveyed(task)
     paths = np.isin(grid.status, (Status.FEASIBLE, Status.COLLISION))
-    colliding = int((grid.status == Status.COLLISION).sum())
+    touching = _contacts(task.job, grid.points[grid.status == Status.COLLISION])
+    between = touching[[pair for pair in touching if FLOOR not in pair]]
+    pairs = between.sum().sort_values(ascending=False)
+    colliding = between.any(axis=1)
     return Result(
-        obtained={"colliding": colliding, "with_paths": int(paths.sum())},
-        caption=caption("claim_meets_collision", positions=len(grid.points)),
+        obtained={
+            "colliding": int(colliding.sum()),
+            "floor_alone": int((~colliding).sum()),
+            "with_paths": int(paths.sum()),
+            "pairs": {" - ".join(pair): int(count) for pair, count in pairs.items() if count},
+        },
+        caption=caption("claim_meets_collision"),
     )
+
+
+def _contacts(job: Job, points: np.ndarray) -> pd.DataFrame:
+    """Which owners (columns) touch somewhere along the seam at positions (P, 3) (rows)."""
+    placement = job.placement()
+    separation = placement.separation
+    found = [np.empty((0, len(separation.owners)), dtype=bool)]
+    for jobs in map(placement.jobs, blocks(points)):
+        found.append(separation.per_pair(jobs.q, jobs.centres) <= 0)
+    table = pd.DataFrame(np.concatenate(found).T, index=separation.owners)
+    return table.groupby(level=0).any().T
 
 
 @checks(
