@@ -38,6 +38,9 @@ SEED = 20200344
 SAMPLE = 20
 #: Cells of every stored study that each setting computes again, and those of the short form.
 CELLS, SHORT_CELLS = 5, 1
+#: A stress that no compiler here applies by itself: a descent along a crease amplifies what it
+#: changes, so that cells that come out otherwise are listed and fail nothing. Items have to hold.
+STRESS = "fused"
 #: Values that move by more than this, relative, are worth a look even where nothing drifts.
 SPREAD = 1e-8
 
@@ -161,7 +164,8 @@ def _report(
         f"{len(made['wrong']):d} otherwise",
         flush=True,
     )
-    return not (without_effect or drifted or changed or made["wrong"])
+    failing = [] if setting.name == STRESS else made["wrong"]
+    return not (without_effect or drifted or changed or failing)
 
 
 if __name__ == "__main__":

@@ -69,12 +69,16 @@ def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
 
 
 def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys):
-    made = {"machine": {}, "items": {}, "cells": 3, "wrong": ["toy cell 1: obtained.x moved"]}
+    machine = {"fused": not machine_code.probe()["fused"]}
+    wrong = ["toy cell 1: obtained.x moved"]
+    made = {"machine": machine, "items": {}, "cells": 3, "wrong": wrong}
     monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
     assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
     out = capsys.readouterr().out
     assert "3 cells of studies, 1 otherwise" in out
     assert "toy cell 1" in out
+    assert verify_portable.main(["--setting", verify_portable.STRESS, "xue.eq01"]) == 0
+    assert "toy cell 1" in capsys.readouterr().out
 
 
 def test_the_short_sample_holds_what_is_delicate(registry):

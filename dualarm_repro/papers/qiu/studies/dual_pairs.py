@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ....ledger import REGISTRY, Study
+from ....ledger.comparison import Comparison
 from ....planning.field.control_points import end_effector
 from ....planning.tasks.elbow_branches import branch_posture
 from ....planning.tasks.random_tasks import blocked_goal
@@ -80,5 +81,12 @@ PAIRS = REGISTRY.keeps(
         compute=_cell,
         seed=SEED + 20,
         settings={"control_points": list(PAIR_POINTS), "margin_m": MARGIN},
+        compared=(
+            Comparison(
+                "*_arms_clearance",
+                "taken at samples of a path, between which more than this is missed",
+                absolute=1e-5,
+            ),
+        ),
     )
 )
