@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from ..arms import Arm
 from ..errors import DualArmError, InputError, UnknownNameError
-from ..scene import JointPath
+from ..scene import JointPath, Scene
 from ..settings import Settings
 from .defaults import default_settings, default_two_arm_settings
 from .descent.cartesian_ik import plan_cartesian_ik
@@ -18,7 +18,7 @@ from .descent.compiled import plan_apf_compiled
 from .gate import require_sound
 from .master_slave import CoordinatedPlan, Planner, Task, plan_master_slave
 from .plan import Plan
-from .planner_view import planner_scene
+from .planner_view import planner_scene, with_parked
 from .search.bidirectional_arms import (
     SplicedPlan,
     TwoArmSettings,
@@ -47,6 +47,9 @@ class Method(Generic[_Settings]):
         Arm -> settings that suit its size, for a scene that brings none.
     plan : callable
         Task set and tasks of the arms -> their plans.
+    whole : bool
+        Whether it takes every shape as it is; else the scene is simplified for it, see
+        :func:`.planner_view.planner_scene`. Parked arms are obstacles either way.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Method(Generic[_Settings]):
     settings: type[_Settings]
     default: Callable[[Arm], _Settings]
     plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
+    whole: bool = False
 
     def planned(self, path: str | Path, allow_collision: bool = False) -> AnyPlan:
         """See :func:`plan_file`."""
@@ -64,12 +68,16 @@ class Method(Generic[_Settings]):
             arm: Task(task.start, task.goal, self.adapted(given.settings[arm]))
             for arm, task in given.tasks.items()
         }
-        starts = {arm: task.start for arm, task in given.tasks.items()}
-        told = replace(given, scene=planner_scene(given.scene, starts, given.parked))
-        found = self._answered(told, tasks)
+        found = self._answered(replace(given, scene=self._told(given)), tasks)
         parked = {arm: JointPath([q]) for arm, q in given.parked.items()}
         residuals = {arm: task.residual for arm, task in given.tasks.items() if task.residual > 0.0}
         return replace(found, scene=given.scene, paths=found.paths | parked, residuals=residuals)
+
+    def _told(self, given: TaskSet[_Settings]) -> Scene:
+        if self.whole:
+            return with_parked(given.scene, given.parked)
+        starts = {arm: task.start for arm, task in given.tasks.items()}
+        return planner_scene(given.scene, starts, given.parked)
 
     def _answered(self, told: TaskSet[_Settings], tasks: dict[str, Task[_Settings]]) -> AnyPlan:
         """The plan; what a library below raises becomes an error of this one."""

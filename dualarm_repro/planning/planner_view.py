@@ -40,20 +40,29 @@ def planner_scene(
     that no arm can come near to are left out, and so are capsules that touch an obstacle they are
     exempt from, by which a planner would refuse the start.
     """
-    known = replace(
+    arms = [_unmounted(scene, one, starts.get(one.name)) for one in scene.arms]
+    left = {f"{one.name}/{name}" for one in arms for name in links_of(one.arm).names}
+    gone = {body.name for body in scene.bodies.all if body.joint is not None} - left
+    simple = replace(
         scene,
-        arms=[_unmounted(scene, one, starts.get(one.name)) for one in scene.arms],
+        arms=arms,
         obstacles={name: _boxed(solid) for name, solid in scene.obstacles.items()},
         moving={name: _moving_box(mover) for name, mover in scene.moving.items()},
-        exempt=(),
+        exempt=[pair for pair in scene.exempt if not gone & set(pair)],
     )
-    for name, q in parked.items():
-        known = known.replaying(name, JointPath([q]))
+    known = with_parked(simple, parked)
     if len(known.obstacles) < MANY:
         return known
     spans = [(one.placement.translation, 1.5 * _span(one.arm)) for one in known.arms]
     low, high = (np.array([at + side * span for at, span in spans]) for side in (-1.0, 1.0))
     return with_obstacles(known, standing_near(known, low, high, 0.0))
+
+
+def with_parked(scene: Scene, parked: Mapping[str, np.ndarray]) -> Scene:
+    """The scene with some of its arms as obstacles that stand at a posture (nq,) [rad]."""
+    for name, q in parked.items():
+        scene = scene.replaying(name, JointPath([q]))
+    return scene
 
 
 def enclosing_box(hull: ConvexHull) -> Box:

@@ -1,8 +1,8 @@
 """Paths of arms from CSV files, one's own or somebody else's: a row a sample, linear in between.
 
 A column ``step``, ``index`` or ``time`` is the common index (without one: the number of the row).
-The joints of an arm are ``ARM.q1``, ``ARM.q2`` ...; in the file of one arm plain ``q1``, ``q2`` ...,
-the arm being that of the name of the file, ``ARM.csv`` or ``NAME_ARM.csv``. Other columns are left
+The joints of an arm are ``ARM.q1``, ``ARM.q2`` ...; in the file of one arm plain ``q1`` ..., the
+arm being that of the name of the file, ``ARM.csv`` or ``NAME_ARM.csv``. Other columns are left
 alone.
 """
 
