@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 from typer.main import get_command
 
-from . import checking, items, planners, publishing, running
+from . import checking, items, planners, publishing, running, scenes
 from .examples import Command, Group
 
 #: Every command by its name, in the order of the help.
@@ -21,6 +21,8 @@ COMMANDS: dict[str, Callable[..., Any]] = {
     "study": checking.study,
     "methods": planners.methods,
     "plan": planners.plan,
+    "check": scenes.check,
+    "view": scenes.view,
     "cite": publishing.cite,
     "export": publishing.export_ledger,
     "new-document": publishing.add_document,

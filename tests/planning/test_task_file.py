@@ -77,7 +77,7 @@ def write(tmp_path):
 def test_positions_become_joints_and_gaps_are_filled_from_the_scene(write):
     given = load_tasks(write(TASKS))
     assert list(given.tasks) == ["left", "right"]
-    assert given.settings is None
+    assert given.settings["left"] == default_settings(given.scene.arms[0].arm)
     left = next(placed for placed in given.scene.arms if placed.name == "left")
     assert end_effector(left, given.tasks["left"].goal) == pytest.approx([0.05, 0.3, 0.55])
     assert given.tasks["right"].start == pytest.approx(np.zeros(6))
