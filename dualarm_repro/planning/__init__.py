@@ -22,6 +22,7 @@ from .gate import require_sound
 from .master_slave import CoordinatedPlan, Task, at_tool_speed, plan_master_slave
 from .methods import METHODS, Method, method, plan_file, settings_schema
 from .plan import Plan
+from .planner import FoundPath, PathPlanner, PathProblem, PlannerSettings
 from .settings import (
     APFSettings,
     Attraction,
@@ -48,11 +49,15 @@ __all__ = [
     "ControlPoints",
     "CoordinatedPlan",
     "FollowReason",
+    "FoundPath",
     "JointAttraction",
     "LinkClearance",
     "Method",
     "Obstacles",
+    "PathPlanner",
+    "PathProblem",
     "Plan",
+    "PlannerSettings",
     "PointRepulsion",
     "PositionAttraction",
     "Repulsion",
