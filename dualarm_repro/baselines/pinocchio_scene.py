@@ -28,9 +28,14 @@ def whole_model(scene: Scene) -> WholeModel:
     """
     model, geometry = pin.Model(), pin.GeometryModel()
     for placed in scene.arms:
-        model, geometry = pin.appendModel(
-            model, _named(placed), geometry, _shapes(placed), 0, placed.placement
-        )
+        named = _named(placed)
+        model = pin.appendModel(model, named, 0, placed.placement)
+        for one in placed.arm.geometry.geometryObjects:
+            joint, at = 0, placed.placement * one.placement
+            if one.parentJoint:
+                joint, at = model.getJointId(named.names[one.parentJoint]), one.placement
+            body = f"{placed.name}/{one.name}"
+            geometry.addGeometryObject(pin.GeometryObject(body, joint, at, one.geometry))
     for name, solid in _standing(scene).items():
         shape, pose = solid.coal()
         placement = pin.SE3(np.array(pose.getRotation()), np.array(pose.getTranslation()))
@@ -52,16 +57,6 @@ def _named(placed: PlacedArm) -> pin.Model:
     for frame in model.frames:
         frame.name = f"{placed.name}/{frame.name}"
     return model
-
-
-def _shapes(placed: PlacedArm) -> pin.GeometryModel:
-    made = pin.GeometryModel()
-    for one in placed.arm.geometry.geometryObjects:
-        copy = pin.GeometryObject(
-            f"{placed.name}/{one.name}", one.parentJoint, one.placement, one.geometry
-        )
-        made.addGeometryObject(copy)
-    return made
 
 
 def _standing(scene: Scene) -> dict[str, Shape]:

@@ -18,7 +18,7 @@ from ..planning.planner import Ending, FoundPath, PathProblem
 from ..scene import densify
 from .ompl_problem import EXTRA
 
-_KNOTS, _ITERATIONS, _STARTS = 30, 30, 4
+_KNOTS, _ITERATIONS, _SWEEPS, _STARTS = 30, 30, 3, 4
 _EFFORT, _CONTACT, _GOAL = 1.0, 1e4, 1e4  # w_u [1/rad^2], w_c [1/m^2], w_g [1/rad^2]
 _RANGE = 0.03  # kept beyond the margin, so that it holds between the knots [m]
 _NEAR = 1e-2  # [rad]
@@ -61,7 +61,12 @@ def _optimised(crocoddyl: Any, problem: PathProblem, model: Any, via: np.ndarray
     running, last = model(final=False), model(final=True)
     shots = crocoddyl.ShootingProblem(problem.start, [running] * _KNOTS, last)
     solver = crocoddyl.SolverFDDP(shots)
-    solver.solve(list(line), list(np.diff(line, axis=0)), _ITERATIONS, True)
+    states, speeds = list(line), list(np.diff(line, axis=0))
+    for _ in range(_ITERATIONS // _SWEEPS):  # in portions, since each may be the last
+        done = solver.solve(states, speeds, _SWEEPS, True)
+        states, speeds = list(solver.xs), list(solver.us)
+        if done or problem.spent:
+            break
     return np.clip(np.array(solver.xs), *problem.scene.limits)
 
 
@@ -83,8 +88,7 @@ def _knot_model(crocoddyl: Any, problem: PathProblem) -> Any:
 
         def calc(self, data: Any, x: np.ndarray, u: np.ndarray | None = None) -> None:
             q = np.array(x)
-            problem.evaluations += 1
-            short = np.maximum(keep - _distances(problem, q), 0.0)
+            short = np.maximum(keep - problem.distances(q), 0.0)
             data.cost = 0.5 * _CONTACT * float(short @ short)
             if self.final:
                 data.cost += 0.5 * _GOAL * float(((q - problem.goal) ** 2).sum())
@@ -109,9 +113,3 @@ def _knot_model(crocoddyl: Any, problem: PathProblem) -> Any:
                 data.Lu, data.Luu = _EFFORT * np.array(u), _EFFORT * np.eye(size)
 
     return Knot
-
-
-def _distances(problem: PathProblem, q: np.ndarray) -> np.ndarray:
-    from ..scene import distances
-
-    return distances(problem.scene, q)

@@ -103,10 +103,14 @@ class PathProblem:
             self._margin = float(np.clip(0.5 * least, 0.0, self.settings.margin))
         return self._margin
 
-    def clearance(self, q: np.ndarray, time: float = 0.0) -> float:
-        """Smallest distance of all watched pairs at q (nq,) [m]."""
+    def distances(self, q: np.ndarray, time: float = 0.0) -> np.ndarray:
+        """Distances (P,) of all watched pairs at q (nq,) [m]."""
         self.evaluations += 1
-        return float(distances(self.scene, q, time).min(initial=np.inf))
+        return distances(self.scene, q, time)
+
+    def clearance(self, q: np.ndarray, time: float = 0.0) -> float:
+        """The smallest of them [m]; infinite without a pair."""
+        return float(self.distances(q, time).min(initial=np.inf))
 
     def gradient(self, q: np.ndarray, time: float = 0.0) -> tuple[Clearance, np.ndarray]:
         """Distances (P,) of all pairs [m] and their gradients (P, nq) [m/rad]."""

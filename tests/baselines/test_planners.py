@@ -46,7 +46,7 @@ def test_baseline_does_a_task_that_is_free(name, tmp_path):
     path = np.hstack([one.path for one in plan.plans.values()])
     np.testing.assert_allclose(path[0], problem.start, atol=1e-12)
     np.testing.assert_allclose(path[-1], problem.goal, atol=1e-3)
-    assert 0 < problem.evaluations <= 4400
+    assert 0 < problem.evaluations <= 6000  # a sweep that has begun is finished
 
 
 @pytest.mark.parametrize("name", ["rrt-connect", "rrt-connect-simplified", "cbf-qp"])
