@@ -6,6 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms import load_arm
+from ..errors import InputError
 from ..planning.checks.contact_check import contact_check
 from ..scene import PlacedArm, Scene, Sphere, distances
 from .case import Case
@@ -29,14 +30,16 @@ def random_case(pair: str, grade: str, seed: int) -> Case:
 
     The scene and then start and goal are drawn uniformly and rejected until they fit.
     """
-    rng = np.random.default_rng([20_260_015, seed, list(GRADES).index(grade)])
+    rng = np.random.default_rng(
+        [20_260_015, seed, list(PAIRS).index(pair), list(GRADES).index(grade)]
+    )
     for _ in range(_SCENES):
         scene = _scene(pair, GRADES[grade], rng)
         clear = _clear_postures(scene, rng)
         for start, goal in zip(clear[::2], clear[1::2], strict=False):
             if contact_check(scene, np.array([start, goal])).smallest < 0.0:
                 return _case(f"{pair}, {grade}, seed {seed}", scene, start, goal)
-    raise RuntimeError(f"{pair}, {grade}: no task in {_SCENES} scenes")
+    raise InputError("arena", "task", f"{pair}, {grade}", f"one in {_SCENES} drawn scenes")
 
 
 def near_case(pair: str, end: str, seed: int) -> Case:
@@ -44,7 +47,9 @@ def near_case(pair: str, end: str, seed: int) -> Case:
 
     The posture is found by bisection between one that is clear and one in contact.
     """
-    rng = np.random.default_rng([20_260_016, seed, ("start", "goal").index(end)])
+    rng = np.random.default_rng(
+        [20_260_016, seed, list(PAIRS).index(pair), ("start", "goal").index(end)]
+    )
     for _ in range(_SCENES):
         scene = _scene(pair, 2, rng)
         clear = _clear_postures(scene, rng)
@@ -56,7 +61,7 @@ def near_case(pair: str, end: str, seed: int) -> Case:
                 continue
             ends = (near, other) if end == "start" else (other, near)
             return _case(f"{pair}, {end} near contact, seed {seed}", scene, *ends)
-    raise RuntimeError(f"{pair}: no task near contact in {_SCENES} scenes")
+    raise InputError("arena", "task near contact", pair, f"one in {_SCENES} drawn scenes")
 
 
 def _near(scene: Scene, clear: np.ndarray, touching: np.ndarray) -> np.ndarray | None:

@@ -47,7 +47,7 @@ def arena(
     stored anew in data/results/arena.parquet, and go on where they were stopped. With --method
     planners run now, those of other packages too, and nothing is stored.
     """
-    from ..errors import InputError
+    from ..errors import InputError, LedgerError
 
     if kind is not None and kind not in KINDS:
         raise InputError("arena", "--kind", kind, f"one of {', '.join(KINDS)}")
@@ -63,6 +63,8 @@ def arena(
     else:
         if jobs is not None or scheduler is not None:
             ARENA.run(jobs or 1, progress.wanted(), scheduler=scheduler)
+        if (status := ARENA.status()) != "up to date":
+            raise LedgerError(f"arena: {status}; `dualarm arena --jobs 2` computes it")
         rows = contest(ARENA.load())
     _tell(rows, as_json)
 

@@ -87,9 +87,7 @@ def test_refusal_and_failure_of_a_planner_are_rows_too(case):
     assert row(case, lambda problem: 1 / 0)["outcome"] == Outcome.REFUSED
 
 
-def test_ends_in_contact_are_no_task(case):
-    inside = {name: np.zeros(6) for name in case.starts}
-    inside["left"] = np.array([0.0, 1.9, -0.5, 0.0, 0.0, 0.0])
+def test_ends_beyond_limits_are_no_task(case):
     beyond = replace(case, goals={**case.goals, "left": case.scene.arms[0].arm.upper + 0.1})
     assert beyond.fault == "limits"
     assert row(beyond, straight)["outcome"] == Outcome.NO_TASK

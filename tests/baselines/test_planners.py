@@ -1,6 +1,7 @@
 """Every baseline on tasks whose answer is known, judged by all bodies."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from crossing_pair import BLOCKED, FREE, written
 
@@ -9,7 +10,7 @@ from dualarm_repro.errors import DualArmError, InputError
 from dualarm_repro.planning import FoundPath, PathProblem, PlannerSettings, truth
 from dualarm_repro.planning.path_plan import run_planner
 from dualarm_repro.planning.tasks.task_file import load_tasks
-from dualarm_repro.scene import MovingShape, PosePath, Sphere
+from dualarm_repro.scene import MovingShape, PosePath, Sphere, distances
 from dualarm_repro.settings import Settings
 
 PACKAGES = {
@@ -85,7 +86,7 @@ def test_simplified_path_is_shorter(tmp_path):
 def test_obstacle_that_moves_by_itself_is_refused_by_name(name, tmp_path):
     pytest.importorskip(PACKAGES[name])
     problem = problem_of(tmp_path, FREE)
-    track = PosePath(np.tile(np.eye(4), (2, 1, 1)), [0.0, 9.0])
+    track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
     ball = MovingShape(Sphere([0.0, 0.0, 2.0], 0.1), track)
     scene = problem.scene
     problem.scene = type(scene)(scene.arms, moving={"ball": ball})
@@ -114,7 +115,5 @@ def test_margin_is_half_of_what_the_ends_have(tmp_path):
     problem = problem_of(tmp_path, FREE, margin=0.005)
     assert problem.margin == 0.005
     wide = problem_of(tmp_path, FREE, margin=10.0)
-    from dualarm_repro.scene import distances
-
     least = distances(wide.scene, np.array([wide.start, wide.goal])).min()
     assert wide.margin == pytest.approx(0.5 * least)

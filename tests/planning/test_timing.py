@@ -92,7 +92,7 @@ def test_wrong_limits_are_named(scene, change, told):
 def test_a_path_that_rests_and_obstacles_that_move_are_refused(scene):
     with pytest.raises(InputError, match="an arm moves"):
         timed(scene, one_joint(scene, 0.0))
-    track = PosePath(np.tile(np.eye(4), (2, 1, 1)), [0.0, 9.0])
+    track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
     moving = Scene(scene.arms, moving={"ball": MovingShape(Sphere([0.0, 0.0, 3.0], 0.1), track)})
     with pytest.raises(InputError, match="ball"):
         timed(moving, one_joint(scene, 0.2))
