@@ -6,6 +6,7 @@ that the scene watches.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -62,10 +63,10 @@ def _named(placed: PlacedArm) -> pin.Model:
 def _standing(scene: Scene) -> dict[str, Shape]:
     found: dict[str, Shape] = {}
     for name, solid in scene.obstacles.items():
-        if isinstance(solid, tuple | list):
+        if isinstance(solid, Sequence):
             found |= {f"{name}/{k}": one for k, one in enumerate(solid)}
         else:
-            found[name] = solid  # type: ignore[assignment]
+            found[name] = solid
     if scene.floor is not None:
         found[FLOOR] = HalfSpace((0.0, 0.0, 1.0), scene.floor)
     return found

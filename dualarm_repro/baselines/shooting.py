@@ -33,7 +33,7 @@ def shooting(problem: PathProblem) -> FoundPath:
             f"trajectory optimisation needs the package crocoddyl (extra `{EXTRA}`)"
         ) from None
     problem.at_rest("trajectory-optimisation")
-    model = _knot_model(crocoddyl, problem)
+    model = _knot_model(problem)
     start, goal, rng = problem.start, problem.goal, np.random.default_rng(problem.settings.seed)
     best = start[np.newaxis]
     for attempt in range(_STARTS):
@@ -76,10 +76,12 @@ def _clear(problem: PathProblem, path: np.ndarray) -> bool:
     return all(problem.clearance(q) > 0.0 for q in rows)
 
 
-def _knot_model(crocoddyl: Any, problem: PathProblem) -> Any:
+def _knot_model(problem: PathProblem) -> Any:
+    import crocoddyl
+
     size, keep = len(problem.start), problem.margin + _RANGE
 
-    class Knot(crocoddyl.ActionModelAbstract):  # type: ignore[misc]
+    class Knot(crocoddyl.ActionModelAbstract):
         """One knot of the path; the last one has the goal instead of a velocity."""
 
         def __init__(self, final: bool) -> None:

@@ -66,7 +66,8 @@ def as_plan(problem: PathProblem, found: FoundPath) -> CoordinatedPlan[Any]:
     """The path cut to the arms, with rows no further apart than the settings say."""
     scene = problem.scene
     path, _ = densify(found.path, problem.settings.resolution)
-    plans, paths = {}, {}
+    plans: dict[str, PathPlan] = {}
+    paths: dict[str, JointPath] = {}
     for placed in scene.arms:
         part = np.ascontiguousarray(path[:, scene.columns[placed.name]])
         goal = problem.goal[scene.columns[placed.name]]

@@ -134,12 +134,12 @@ class PathProblem:
         scene = self.scene
         for name, q in others.items():
             scene = scene.replaying(name, JointPath([q]))
-        ends = [
+        start, goal = (
             np.concatenate([end[self.scene.columns[name]] for name in scene.columns])
             for end in (self.start, self.goal)
-        ]
+        )
         left = max(self.settings.evaluations - self.evaluations, 2)
-        return PathProblem(scene, *ends, self.settings.changed(evaluations=left))
+        return PathProblem(scene, start, goal, self.settings.changed(evaluations=left))
 
 
 class PathPlanner(Protocol):
