@@ -17,6 +17,7 @@ _OUTCOMES = {
     Outcome.UNDECIDED: (YELLOW, ""),
     Outcome.LIMITS: (PURPLE, "//"),
     Outcome.COLLIDES: (RED, "xx"),
+    Outcome.OTHER_POSTURE: (BLUE, "//"),
     Outcome.STOPPED: (SKY, ""),
     Outcome.REFUSED: ("#BBBBBB", ".."),
 }

@@ -24,6 +24,11 @@ from .case import Case
 
 #: Spacing of the samples by which the bending of a joint path is measured [rad].
 SPACING = 0.05
+#: Who ends this near to the goal is taken straight to it, and judged with this last piece [rad]. It
+#: is more than the coarsest tolerance by which a contestant ends, 0.06 rad.
+LAST_PIECE = 0.065
+#: A flange this near to that of the goal is at the point that the task is about [m].
+AT_THE_POINT = 0.01
 #: Columns that depend on the machine.
 MEASURED = ("time",)
 
@@ -35,9 +40,10 @@ class Outcome(StrEnum):
     COLLIDES = "arrives, collides"
     UNDECIDED = "arrives, not certified"
     LIMITS = "arrives beyond limits"
+    OTHER_POSTURE = "other posture at the point"
     STOPPED = "stops on the way"
     REFUSED = "refuses the task"
-    NO_TASK = "no task: ends in contact"
+    NO_TASK = "no task"
 
 
 def judged_row(
@@ -63,15 +69,16 @@ def judged_row(
         kind = str(error) if isinstance(error, DualArmError) else type(error).__name__
         return {**_nothing(), "outcome": str(Outcome.REFUSED), "reason": " ".join(kind.split())}
     time = perf_counter() - begin
-    found = truth(case.scene, plan.paths)
+    paths = completed(case, plan.paths)
+    found = truth(case.scene, paths)
     claim = all(bool(one.reached) for one in plan.plans.values())
     return {
-        "outcome": str(outcome_of(case, plan.paths, found)),
+        "outcome": str(outcome_of(case, paths, found)),
         "claim": claim,
         "reason": ", ".join(f"{name}: {one.reason}" for name, one in plan.plans.items()),
         "lower": found.lower,
         "upper": found.upper,
-        **measures(case, plan.paths),
+        **measures(case, paths),
         "evaluations": evaluations_of(plan),
         "time": time,
     }
@@ -90,6 +97,18 @@ def answered(case: Case, method: Method[Any], evaluations: int, seed: int) -> An
     return method.plan(replace(given, scene=told), tasks)
 
 
+def completed(case: Case, paths: Mapping[str, JointPath]) -> dict[str, JointPath]:
+    """The paths, those that end near their goals with a last straight piece to it."""
+    made = {}
+    for name, path in paths.items():
+        goal, last = case.goals[name], path.configurations[-1]
+        if 0.0 < np.abs(last - goal).max() <= LAST_PIECE:
+            rows = np.vstack([path.configurations, goal])
+            path = JointPath(rows, np.append(path.index, path.index[-1] + 1.0))
+        made[name] = path
+    return made
+
+
 def outcome_of(case: Case, paths: Mapping[str, JointPath], found: Truth) -> Outcome:
     """What became of a case, whatever the planner says."""
     there = all(
@@ -97,12 +116,21 @@ def outcome_of(case: Case, paths: Mapping[str, JointPath], found: Truth) -> Outc
         for name, path in paths.items()
     )
     if not there:
-        return Outcome.STOPPED
+        return Outcome.OTHER_POSTURE if _at_the_point(case, paths) else Outcome.STOPPED
     if found.upper <= 0.0:
         return Outcome.COLLIDES
     if not found.within_limits:
         return Outcome.LIMITS
     return Outcome.SUCCESS if found.collision_free else Outcome.UNDECIDED
+
+
+def _at_the_point(case: Case, paths: Mapping[str, JointPath]) -> bool:
+    ends = {name: path.configurations[-1] for name, path in paths.items()}
+    away = [
+        np.linalg.norm(end_effector(one, ends[one.name]) - end_effector(one, case.goals[one.name]))
+        for one in case.scene.arms
+    ]
+    return max(away) <= AT_THE_POINT
 
 
 def measures(case: Case, paths: Mapping[str, JointPath]) -> dict[str, float]:

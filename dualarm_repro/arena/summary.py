@@ -26,7 +26,7 @@ def contest(table: pd.DataFrame) -> pd.DataFrame:
     """The rows of the contestants on tasks, with whether somebody has shown that it can be done.
 
     A task is feasible if the witness, or any contestant, has a certified path; column
-    ``feasible``. Tasks whose ends are in contact are no tasks and are left out.
+    ``feasible``. Tasks with an end in contact or beyond limits are no tasks and are left out.
     """
     rows = table[table["outcome"] != Outcome.NO_TASK]
     success = rows["outcome"] == Outcome.SUCCESS
@@ -114,13 +114,13 @@ def by_group(rows: pd.DataFrame, kind: str, chosen: Sequence[str]) -> pd.DataFra
 
 
 def lost_tasks(table: pd.DataFrame) -> pd.DataFrame:
-    """Tasks counted apart, by kind: ends in contact, and those nobody has shown to be feasible."""
+    """Tasks counted apart, by kind: unsound ends, and those that nobody has shown to be feasible."""
     tasks = table.drop_duplicates(_TASK)
     rows = contest(table).drop_duplicates(_TASK)
     found = {
         kind: {
             "tasks": int((tasks["kind"] == kind).sum()),
-            "ends in contact": int(
+            "unsound ends": int(
                 ((tasks["kind"] == kind) & (tasks["outcome"] == Outcome.NO_TASK)).sum()
             ),
             "no witness": int(((rows["kind"] == kind) & ~rows["feasible"]).sum()),

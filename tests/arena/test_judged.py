@@ -91,3 +91,35 @@ def test_ends_beyond_limits_are_no_task(case):
     beyond = replace(case, goals={**case.goals, "left": case.scene.arms[0].arm.upper + 0.1})
     assert beyond.fault == "limits"
     assert row(beyond, straight)["outcome"] == Outcome.NO_TASK
+
+
+def test_who_ends_near_the_goal_is_judged_with_the_last_piece(case):
+    """0.06 rad short of a goal nearby: completed, and the length is that of the whole way."""
+    nearby = {name: q + 0.1 for name, q in case.starts.items()}
+    easy = Case("easy", case.scene, case.starts, nearby)
+
+    def short(problem):
+        return FoundPath(np.array([problem.start, problem.goal - 0.06]), "reached")
+
+    found = row(easy, short)
+    assert found["outcome"] in (Outcome.SUCCESS, Outcome.COLLIDES, Outcome.LIMITS)
+    assert found["joint_length"] == pytest.approx(0.1 * np.sqrt(12))
+    further = {name: q + 0.2 for name, q in case.starts.items()}
+    easy = Case("easy", case.scene, case.starts, further)
+
+    def shorter(problem):
+        return FoundPath(np.array([problem.start, problem.goal - 0.15]), "reached")
+
+    assert row(easy, shorter)["outcome"] == Outcome.STOPPED
+
+
+def test_another_posture_at_the_point_is_no_success(case):
+    """The last joint turns the flange about itself, so that its point stays where it is."""
+    turned = {name: q.copy() for name, q in case.starts.items()}
+    turned["left"][5] += 0.5
+
+    def stays(problem):
+        return FoundPath(problem.start[None], "reached")
+
+    found = row(Case("turned", case.scene, case.starts, turned), stays)
+    assert found["outcome"] == Outcome.OTHER_POSTURE

@@ -84,7 +84,7 @@ def test_effort_counts_a_failure_as_all_evaluations(table):
 def test_groups_and_tasks_that_are_counted_apart(table):
     assert by_group(contest(table), "random", [A]).loc[A, "g"] == "2 of 3"
     lost = lost_tasks(table).loc["random"]
-    assert lost.to_dict() == {"tasks": 5, "ends in contact": 1, "no witness": 1}
+    assert lost.to_dict() == {"tasks": 5, "unsound ends": 1, "no witness": 1}
 
 
 def test_every_method_of_the_library_is_a_contestant():
