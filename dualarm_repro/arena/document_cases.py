@@ -29,13 +29,16 @@ def document_case(name: str) -> Case:
 
 
 def _xue() -> Case:
-    """Master past, slave through the window."""
+    """Master past, slave through the window; joints turn fully, as the printed start needs."""
     layout = xue_reading.nominal().layout
-    scene = xue.scene_of(layout)
     slave = xue.placed_slave(layout)
     if slave is None:
         raise InputError("xue", "slave", layout, "points within reach")
     posed = {"master": xue.placed_master(layout), "slave": slave}
+    free = xue.arm_in_use("full_turns", xue.lengths("matrices")["a2"])
+    turning = {"master": free, "slave": free.mirrored()}
+    arms = [PlacedArm(name, arm, posed[name].placement) for name, arm in turning.items()]
+    scene = Scene(arms, {"window": layout.window()}, self_collision=False)
     starts = {name: one.start for name, one in posed.items()}
     return Case("xue", scene, starts, {name: one.goal for name, one in posed.items()})
 

@@ -114,7 +114,7 @@ def by_group(rows: pd.DataFrame, kind: str, chosen: Sequence[str]) -> pd.DataFra
 
 
 def lost_tasks(table: pd.DataFrame) -> pd.DataFrame:
-    """Tasks counted apart, by kind: unsound ends, and those that nobody has shown to be feasible."""
+    """Tasks counted apart, by kind: with unsound ends, and not shown by anyone to be feasible."""
     tasks = table.drop_duplicates(_TASK)
     rows = contest(table).drop_duplicates(_TASK)
     found = {
