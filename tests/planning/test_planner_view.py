@@ -10,6 +10,7 @@ from dualarm_repro.planning.planner_view import enclosing_box, planner_scene
 from dualarm_repro.scene import Box, ConvexHull, Sphere, signed_distance
 
 UP = "[0, 0, 0, 0, 0, 0]"
+ASIDE = '["90 deg", 0, 0, 0, 0, 0]'
 PLANAR = """<robot name="planar">
 <link name="b"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
 <link name="l1"><collision><origin xyz="{half}" rpy="{rpy}"/><geometry>
@@ -39,7 +40,7 @@ def test_a_box_around_a_hull_holds_it_tightly():
 
 
 def test_parked_arms_become_obstacles_and_mounts_are_left_out(tmp_path):
-    text = f"arms:\n  {LEFT}\n  {RIGHT}\n{FLOOR}"
+    text = f"arms:\n  {LEFT}\n  {RIGHT}\n{FLOOR.replace('floor: 0', 'floor: 0.2')}"
     given = load_tasks(written(tmp_path, text))
     starts = {"left": given.tasks["left"].start}
     told = planner_scene(given.scene, starts, given.parked)
@@ -57,9 +58,8 @@ def test_hulls_and_moving_shapes_can_be_planned_around(tmp_path):
         "obstacles: {pole: {kind: cylinder, start: [0.05, 0.5, 0], end: [0.05, 0.5, 0.5], "
         "radius: 0.04}}\n"
     )
-    path = written(
-        tmp_path, both(f"start: {UP}, goal: [0.8, 0.2, 0, 0, 0.3, 0]", f"start: {UP}", rest)
-    )
+    left = f'start: {ASIDE}, goal: ["20 deg", 0.2, 0, 0, 0.3, 0]'
+    path = written(tmp_path, both(left, f"start: {ASIDE}", rest))
     found = plan_file(path, "apf-improved")
     assert isinstance(found.scene.obstacles["pole"], ConvexHull)
     assert "pole" in found.plans["left"].obstacle_names
@@ -86,7 +86,7 @@ def test_a_planar_arm_can_be_the_master(tmp_path, name, whole, half, rpy):
 
 def test_three_arms_are_planned_and_judged_together(tmp_path):
     third = f"third: {{robot: irb120, xyz: [0, 1.5, 0], start: {UP}, goal: [0.5, 0, 0, 0, 0, 0]}}"
-    ends = f"start: {UP}, goal: [0.5, 0.1, 0, 0, 0, 0]"
+    ends = f'start: {ASIDE}, goal: ["70 deg", 0.1, 0, 0, 0, 0]'
     path = written(tmp_path, both(ends, ends) + f"  {third}\n")
     found = plan_file(path, "apf-improved")
     assert len(found.plans) == 3

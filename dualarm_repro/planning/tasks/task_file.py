@@ -225,7 +225,7 @@ class _Reading:
         for name in file.parked:
             if not self._unknown("parked", name) and name in file.tasks:
                 self._fault(f"parked.{name}", "a task", "an arm without a task")
-        for name in self._placed:
+        for name in self._placed if set(file.tasks) <= set(self._placed) else ():
             if name in file.tasks:
                 continue
             value = file.parked.get(name, self._written.arms[name].start)
