@@ -44,7 +44,7 @@ BAD = {
     "colliding goal": (
         scene(
             f'{{{ARM}, goal: ["90 deg", "60 deg", 0, 0, 0, 0]}}',
-            "obstacles: {ball: {kind: sphere, center: [0, 0.6, 0.6], radius: 0.2}}\n",
+            "obstacles: {ball: {kind: sphere, center: [0, 0.35, 0.25], radius: 0.08}}\n",
         ),
         "goal = ",
     ),
