@@ -12,6 +12,7 @@ from dualarm_repro.errors import DataFileError, InputError
 from dualarm_repro.scene import Capsule, HalfSpace, Sphere, distances, load_scene, signed_distance
 from dualarm_repro.scene.mesh_parts import covering, divided, mesh_parts
 from dualarm_repro.scene.posing import links_of
+from dualarm_repro.scene.scene_file import MOST_OBSTACLES, scene_of
 from dualarm_repro.scene.tool import with_tool
 from dualarm_repro.scene.written import LARGEST_FILE, read_written
 
@@ -155,12 +156,18 @@ def test_no_file_overwhelms_the_reader(tmp_path, text, message):
 
 def test_a_file_may_be_too_large_or_a_folder(tmp_path):
     path = write(tmp_path, "a: 1\n" + "#" * LARGEST_FILE)
-    with pytest.raises(DataFileError, match="at most 2 MB"):
+    with pytest.raises(DataFileError, match="at most 1 MB"):
         read_written(path)
     with pytest.raises(DataFileError, match="a folder"):
         read_written(tmp_path)
     with pytest.raises(DataFileError, match="file"):
         read_written(tmp_path / "a\0b.yaml")
+
+
+def test_more_obstacles_than_a_scene_may_have(tmp_path):
+    content = {"arms": {}, "obstacles": dict.fromkeys(map(str, range(MOST_OBSTACLES + 1)))}
+    with pytest.raises(DataFileError, match=r"obstacles = 10001: expected at most 10000"):
+        scene_of(tmp_path / "scene.yaml", content)
 
 
 def test_an_alias_that_is_used_twice_is_welcome(tmp_path):
