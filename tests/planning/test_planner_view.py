@@ -1,5 +1,7 @@
 """What planners are told: simpler, never smaller, nothing that makes them refuse wrongly."""
 
+import time
+
 import numpy as np
 import pytest
 from own_scenes import FLOOR, LEFT, RIGHT, both, written
@@ -93,3 +95,28 @@ def test_three_arms_are_planned_and_judged_together(tmp_path):
     judged = truth(found.scene, found.paths)
     assert judged.collision_free
     assert set(judged.q) == {"left", "right", "third"}
+
+
+def test_fourteen_joints_among_three_thousand_obstacles(tmp_path):
+    """Two Pandas in a cloud of balls, from the file to the certified report."""
+    rng = np.random.default_rng(7)
+    at = rng.uniform([-4, -4, 0], [4, 4, 3], (6000, 3))
+    near = np.linalg.norm(at[:, :2] - [0.0, 0.5], axis=1) < 1.7
+    lines = [
+        f"  ball{k}: {{kind: sphere, center: {np.round(p, 3).tolist()}, radius: 0.05}}\n"
+        for k, p in enumerate(at[~near][:3000])
+    ]
+    home = "[%s, -0.3, 0, -1.8, 0, 1.5, 0]"
+    text = "arms:\n" + "".join(
+        f"  {name}: {{robot: panda, xyz: [0, {y}, 0], start: {home % 0.0}, goal: {home % goal}}}\n"
+        for name, y, goal in (("left", 0.0, 0.4), ("right", 1.0, -0.4))
+    )
+    began = time.process_time()
+    path = written(tmp_path, text + "obstacles:\n" + "".join(lines))
+    found = plan_file(path, "apf-improved")
+    judged = truth(found.scene, found.paths)
+    assert time.process_time() - began < 60.0
+    assert len(lines) == 3000
+    assert found.scene.nq == 14
+    assert judged.upper - judged.lower < 1.1e-3
+    assert len(found.scene.obstacles) == 3000
