@@ -201,6 +201,7 @@ def test_what_is_wrong_with_a_shape_is_named(tmp_path, entry, message):
     [
         ("[{at: 1}, {at: 0}]", r"moving\.m\.path\.index"),
         ("[]", r"moving\.m\.path"),
+        ("[{at: 1.0e+9}]", r"moving\.m\.path\.0\.at = 1000000000"),
         ("[{at: .nan}]", r"moving\.m\.path\.0\.at = nan"),
     ],
 )
