@@ -140,7 +140,7 @@ OVERWHELMING = {
     "aliases that multiply": (BOMB, "at most 500000 values"),
     "an alias that contains itself": ("a: &a [*a]\n", "values that end|well-formed YAML"),
     "brackets": ("a: " + "[" * 5000 + "]" * 5000, "at most 50 lists or mappings"),
-    "indents": ("".join(" " * k + "a:\n" for k in range(1500)), "at most 50 lists or mappings"),
+    "indents": ("".join(" " * k + "a:\n" for k in range(1200)), "at most 50 lists or mappings"),
     "nested blocks": ("".join(" " * k + "a:\n" for k in range(200)), "at most 50|mapping"),
     "dashes": ("- " * 3000 + "a", "at most 50 lists or mappings"),
     "a date that is none": ("a: 2024-13-45\n", "well-formed YAML"),
