@@ -118,8 +118,8 @@ def _bases(placed: PlacedArm) -> Iterator[tuple[str, Capsule]]:
     links = links_of(placed.arm)
     for name, joint, core, radius in zip(*links, strict=True):
         if joint == 0:
-            ends = (placed.placement.act(end) for end in core)
-            yield f"{placed.name}/{name}", Capsule(*ends, radius)
+            start, end = (placed.placement.act(point) for point in core)
+            yield f"{placed.name}/{name}", Capsule(start, end, radius)
 
 
 def _touches(base: Capsule, scene: Scene) -> bool:

@@ -42,9 +42,16 @@ def joints_of(
     if entry.tool is None:
         found = tip_posture(placed, entry.position, near, best_effort=entry.best_effort)
         return found.q, found.residual if found.residual > REACHED else 0.0
-    wanted = {"elbow": entry.elbow, "last_joint": entry.last_joint, "reference": entry.reference}
     try:
-        return posture(placed, entry.position, entry.tool, **wanted), 0.0
+        q = posture(
+            placed,
+            entry.position,
+            entry.tool,
+            elbow=entry.elbow,
+            last_joint=entry.last_joint,
+            reference=entry.reference,
+        )
+        return q, 0.0
     except UnsupportedArmError:
         if entry.elbow is not None:
             raise InputError(

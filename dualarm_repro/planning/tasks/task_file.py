@@ -128,7 +128,12 @@ def load_tasks(path: str | Path) -> TaskSet[APFSettings]:
 
 
 @overload
-def load_tasks(path: str | Path, kind: type[_Settings]) -> TaskSet[_Settings]:
+def load_tasks(
+    path: str | Path,
+    kind: type[_Settings],
+    default: Callable[[Arm], _Settings] | None = None,
+    goals_needed: bool = True,
+) -> TaskSet[_Settings]:
     """With settings of that kind."""
 
 
