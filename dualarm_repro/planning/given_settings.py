@@ -25,8 +25,10 @@ def merged(default: _Settings, given: Mapping[str, Any]) -> _Settings:
     values = dict(default)
     for field, value in given.items():
         before = values.get(field)
-        nested = isinstance(value, Mapping) and isinstance(before, Settings)
-        values[field] = _block(before, value) if nested else value
+        if isinstance(value, Mapping) and isinstance(before, Settings):
+            values[field] = _block(before, value)
+        else:
+            values[field] = value
     return type(default)(**values)
 
 

@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 
-from ..arms import Arm
 from ..scene import (
     Box,
     Capsule,
@@ -28,7 +27,7 @@ from ..scene import (
     signed_distance,
 )
 from ..scene.broad_phase import MANY, standing_near, with_obstacles
-from ..scene.reshaped import reshaped
+from ..scene.reshaped import reshaped, stretched
 
 
 def planner_scene(
@@ -53,7 +52,7 @@ def planner_scene(
     known = with_parked(simple, parked)
     if len(known.obstacles) < MANY:
         return known
-    spans = [(one.placement.translation, 1.5 * _span(one.arm)) for one in known.arms]
+    spans = [(one.placement.translation, 1.5 * stretched(one.arm)) for one in known.arms]
     low, high = (np.array([at + side * span for at, span in spans]) for side in (-1.0, 1.0))
     return with_obstacles(known, standing_near(known, low, high, 0.0))
 
@@ -84,10 +83,6 @@ def _moving_box(mover: MovingShape | MovingArm) -> MovingShape | MovingArm:
     if isinstance(mover, MovingShape) and isinstance(mover.shape, ConvexHull):
         return MovingShape(enclosing_box(mover.shape), mover.path)
     return mover
-
-
-def _span(arm: Arm) -> float:
-    return float(np.linalg.norm(arm.chain.translation, axis=1).sum())
 
 
 def _unmounted(scene: Scene, placed: PlacedArm, start: np.ndarray | None) -> PlacedArm:
@@ -123,8 +118,8 @@ def _bases(placed: PlacedArm) -> Iterator[tuple[str, Capsule]]:
     links = links_of(placed.arm)
     for name, joint, core, radius in zip(*links, strict=True):
         if joint == 0:
-            ends = (placed.placement.act(end) for end in core)
-            yield f"{placed.name}/{name}", Capsule(*ends, radius)
+            start, end = (placed.placement.act(point) for point in core)
+            yield f"{placed.name}/{name}", Capsule(start, end, radius)
 
 
 def _touches(base: Capsule, scene: Scene) -> bool:

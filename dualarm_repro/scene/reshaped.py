@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 
+import numpy as np
 import pinocchio as pin
 
 from ..arms.arm import Arm
+from ..arms.chain import chain_of
 
 
 def reshaped(
@@ -15,7 +18,7 @@ def reshaped(
     name: str | None = None,
     flange: tuple[str, pin.SE3] | None = None,
 ) -> Arm:
-    """The joints of an arm with other capsules.
+    """The joints of an arm with other capsules; all else that is known of it stays.
 
     Parameters
     ----------
@@ -24,10 +27,24 @@ def reshaped(
     flange : (str, pinocchio.SE3), optional
         Name and pose, in the frame of the flange, of the frame that becomes the flange.
     """
-    model, at = arm.model, arm.model.frames[arm.flange_id]
-    frame = at.name
+    made = copy(arm)
+    made.__dict__.pop("geometry", None)
+    made._build_geometry, made.name = geometry, name or arm.name
     if flange is not None:
-        model, (frame, pose) = model.copy(), flange
+        made.model = arm.model.copy()
+        at, (frame, pose) = arm.model.frames[arm.flange_id], flange
         kind = pin.FrameType.OP_FRAME
-        model.addFrame(pin.Frame(frame, at.parentJoint, arm.flange_id, at.placement * pose, kind))
-    return Arm(name or arm.name, arm.title, model, frame, geometry)
+        made._flange = made.model.addFrame(
+            pin.Frame(frame, at.parentJoint, arm.flange_id, at.placement * pose, kind)
+        )
+        made.__dict__.pop("_wrist_geometry", None)
+        made.chain = chain_of(made.name, made.model, made.flange_id)
+    made._data = made.model.createData()
+    return made
+
+
+def stretched(arm: Arm) -> float:
+    """Length of the way from the base over all joint origins to the flange [m]."""
+    model = arm.model
+    steps = [*model.jointPlacements[1:], model.frames[arm.flange_id].placement]
+    return float(sum(np.linalg.norm(step.translation) for step in steps))

@@ -7,7 +7,7 @@ Lengths are metres in the world frame, angles radians, ``"90 deg"`` or multiples
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import pinocchio as pin
 from pydantic import Field
@@ -27,6 +27,8 @@ from .written import read_written
 
 #: Most obstacles of a scene.
 MOST_OBSTACLES = 10_000
+#: Largest index of a trajectory; planners look at every step up to it.
+LONGEST = 100_000
 
 
 class TipEntry(StrictModel):
@@ -69,7 +71,7 @@ class ArmEntry(StrictModel):
 class WaypointEntry(StrictModel):
     """A pose at an index that all motions of a scene share: a step of the plan, or a time."""
 
-    at: Number
+    at: Annotated[Number, Field(ge=0, le=LONGEST)]
     xyz: Point = (0.0, 0.0, 0.0)
     rpy: Rpy = UPRIGHT
 

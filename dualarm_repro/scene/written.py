@@ -9,8 +9,8 @@ from typing import Any
 from ..datafiles import read_yaml
 from ..errors import DataFileError
 
-#: Largest file [bytes], about twenty thousand obstacles.
-LARGEST_FILE = 2_000_000
+#: Largest file [bytes], about ten thousand obstacles.
+LARGEST_FILE = 1_000_000
 #: Most values of a file, an alias counted as often as it is used.
 MOST_VALUES = 500_000
 #: Deepest nesting of lists and mappings.
@@ -34,7 +34,7 @@ def read_written(path: Path) -> dict[str, Any]:
         reason = getattr(error, "strerror", None) or "no such name"
         raise DataFileError(path, "file", reason, "a readable YAML file") from None
     if size > LARGEST_FILE:
-        expected = f"at most {LARGEST_FILE / 1e6:g} MB, about twenty thousand obstacles"
+        expected = f"at most {LARGEST_FILE / 1e6:g} MB, about ten thousand obstacles"
         raise DataFileError(path, "size", f"{size / 1e6:.1f} MB", expected)
     _refuse_deep(path)
     try:

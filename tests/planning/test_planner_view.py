@@ -1,5 +1,7 @@
 """What planners are told: simpler, never smaller, nothing that makes them refuse wrongly."""
 
+import time
+
 import numpy as np
 import pytest
 from own_scenes import FLOOR, LEFT, RIGHT, both, written
@@ -10,6 +12,7 @@ from dualarm_repro.planning.planner_view import enclosing_box, planner_scene
 from dualarm_repro.scene import Box, ConvexHull, Sphere, signed_distance
 
 UP = "[0, 0, 0, 0, 0, 0]"
+ASIDE = '["90 deg", 0, 0, 0, 0, 0]'
 PLANAR = """<robot name="planar">
 <link name="b"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
 <link name="l1"><collision><origin xyz="{half}" rpy="{rpy}"/><geometry>
@@ -39,7 +42,7 @@ def test_a_box_around_a_hull_holds_it_tightly():
 
 
 def test_parked_arms_become_obstacles_and_mounts_are_left_out(tmp_path):
-    text = f"arms:\n  {LEFT}\n  {RIGHT}\n{FLOOR}"
+    text = f"arms:\n  {LEFT}\n  {RIGHT}\n{FLOOR.replace('floor: 0', 'floor: 0.2')}"
     given = load_tasks(written(tmp_path, text))
     starts = {"left": given.tasks["left"].start}
     told = planner_scene(given.scene, starts, given.parked)
@@ -57,9 +60,8 @@ def test_hulls_and_moving_shapes_can_be_planned_around(tmp_path):
         "obstacles: {pole: {kind: cylinder, start: [0.05, 0.5, 0], end: [0.05, 0.5, 0.5], "
         "radius: 0.04}}\n"
     )
-    path = written(
-        tmp_path, both(f"start: {UP}, goal: [0.8, 0.2, 0, 0, 0.3, 0]", f"start: {UP}", rest)
-    )
+    left = f'start: {ASIDE}, goal: ["20 deg", 0.2, 0, 0, 0.3, 0]'
+    path = written(tmp_path, both(left, f"start: {ASIDE}", rest))
     found = plan_file(path, "apf-improved")
     assert isinstance(found.scene.obstacles["pole"], ConvexHull)
     assert "pole" in found.plans["left"].obstacle_names
@@ -86,10 +88,35 @@ def test_a_planar_arm_can_be_the_master(tmp_path, name, whole, half, rpy):
 
 def test_three_arms_are_planned_and_judged_together(tmp_path):
     third = f"third: {{robot: irb120, xyz: [0, 1.5, 0], start: {UP}, goal: [0.5, 0, 0, 0, 0, 0]}}"
-    ends = f"start: {UP}, goal: [0.5, 0.1, 0, 0, 0, 0]"
+    ends = f'start: {ASIDE}, goal: ["70 deg", 0.1, 0, 0, 0, 0]'
     path = written(tmp_path, both(ends, ends) + f"  {third}\n")
     found = plan_file(path, "apf-improved")
     assert len(found.plans) == 3
     judged = truth(found.scene, found.paths)
     assert judged.collision_free
     assert set(judged.q) == {"left", "right", "third"}
+
+
+def test_fourteen_joints_among_three_thousand_obstacles(tmp_path):
+    """Two Pandas in a cloud of balls, from the file to the certified report."""
+    rng = np.random.default_rng(7)
+    at = rng.uniform([-4, -4, 0], [4, 4, 3], (6000, 3))
+    near = np.linalg.norm(at[:, :2] - [0.0, 0.5], axis=1) < 1.7
+    lines = [
+        f"  ball{k}: {{kind: sphere, center: {np.round(p, 3).tolist()}, radius: 0.05}}\n"
+        for k, p in enumerate(at[~near][:3000])
+    ]
+    home = "[%s, -0.3, 0, -1.8, 0, 1.5, 0]"
+    text = "arms:\n" + "".join(
+        f"  {name}: {{robot: panda, xyz: [0, {y}, 0], start: {home % 0.0}, goal: {home % goal}}}\n"
+        for name, y, goal in (("left", 0.0, 0.4), ("right", 1.0, -0.4))
+    )
+    began = time.process_time()
+    path = written(tmp_path, text + "obstacles:\n" + "".join(lines))
+    found = plan_file(path, "apf-improved")
+    judged = truth(found.scene, found.paths)
+    assert time.process_time() - began < 60.0
+    assert len(lines) == 3000
+    assert found.scene.nq == 14
+    assert judged.upper - judged.lower < 1.1e-3
+    assert len(found.scene.obstacles) == 3000

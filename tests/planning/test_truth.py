@@ -1,10 +1,13 @@
 """One truth after any method: certified, over every body, never better than a replay."""
 
+from pathlib import Path
+
 import coal
 import numpy as np
 import pinocchio as pin
 import pytest
-from own_scenes import LEFT, RIGHT, both, replayed, written
+from example_robot_data import getModelPath
+from own_scenes import LEFT, RIGHT, both, coal_distance, replayed, written
 
 from dualarm_repro.errors import UnknownNameError
 from dualarm_repro.planning import load_tasks, plan_file
@@ -113,3 +116,37 @@ def test_near_misses_are_decided_by_a_finer_bracket(tmp_path):
         scene = Scene([placed], {"ball": ball}, self_collision=False)
         found = truth(scene, paths)
         assert found.verdict is verdict
+
+
+def test_meshes_are_never_closer_than_the_report(tmp_path):
+    """Two UR5: the collision meshes of their description, placed and measured by Pinocchio and
+    coal alone, against the report over capsules."""
+    urdf = "ur_description/urdf/ur5_robot.urdf"
+    file = Path(getModelPath(urdf)) / urdf
+    ends = 'start: ["%s deg", -1.2, 1.2, -1.5, -1.5, 0], goal: ["%s deg", -1.0, 1.4, -1.5, -1.5, 0]'
+    text = (
+        f"arms:\n  left: {{robot: ur5, xyz: [-0.45, 0, 0], {ends % (70, -30)}}}\n"
+        f"  right: {{robot: ur5, xyz: [0.45, 0, 0], rpy: [0, 0, pi], {ends % (80, 40)}}}\n"
+        "self_collision: false\n"
+    )
+    found = plan_file(written(tmp_path, text), "attraction-only")
+    judged = truth(found.scene, found.paths)
+    model = pin.buildModelFromUrdf(str(file))
+    folders = [str(folder) for folder in file.parents]
+    meshes = pin.buildGeomFromUrdf(model, str(file), pin.GeometryType.COLLISION, folders)
+    data, smallest = model.createData(), np.inf
+
+    def placed(one, q):
+        pin.forwardKinematics(model, data, q)
+        return [
+            (g.geometry, one.placement * data.oMi[g.parentJoint] * g.placement)
+            for g in meshes.geometryObjects
+        ]
+
+    for time in np.linspace(0.0, found.index[-1], 25):
+        left, right = (
+            placed(one, found.paths[one.name].at(np.array([time]))[0]) for one in found.scene.arms
+        )
+        smallest = min(smallest, *(coal_distance(a, b) for a in left for b in right))
+    assert np.isfinite(smallest)
+    assert judged.lower <= smallest + 1e-6

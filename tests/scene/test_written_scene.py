@@ -12,6 +12,7 @@ from dualarm_repro.errors import DataFileError, InputError
 from dualarm_repro.scene import Capsule, HalfSpace, Sphere, distances, load_scene, signed_distance
 from dualarm_repro.scene.mesh_parts import covering, divided, mesh_parts
 from dualarm_repro.scene.posing import links_of
+from dualarm_repro.scene.scene_file import MOST_OBSTACLES, scene_of
 from dualarm_repro.scene.tool import with_tool
 from dualarm_repro.scene.written import LARGEST_FILE, read_written
 
@@ -139,7 +140,7 @@ OVERWHELMING = {
     "aliases that multiply": (BOMB, "at most 500000 values"),
     "an alias that contains itself": ("a: &a [*a]\n", "values that end|well-formed YAML"),
     "brackets": ("a: " + "[" * 5000 + "]" * 5000, "at most 50 lists or mappings"),
-    "indents": ("".join(" " * k + "a:\n" for k in range(1500)), "at most 50 lists or mappings"),
+    "indents": ("".join(" " * k + "a:\n" for k in range(1200)), "at most 50 lists or mappings"),
     "nested blocks": ("".join(" " * k + "a:\n" for k in range(200)), "at most 50|mapping"),
     "dashes": ("- " * 3000 + "a", "at most 50 lists or mappings"),
     "a date that is none": ("a: 2024-13-45\n", "well-formed YAML"),
@@ -155,12 +156,18 @@ def test_no_file_overwhelms_the_reader(tmp_path, text, message):
 
 def test_a_file_may_be_too_large_or_a_folder(tmp_path):
     path = write(tmp_path, "a: 1\n" + "#" * LARGEST_FILE)
-    with pytest.raises(DataFileError, match="at most 2 MB"):
+    with pytest.raises(DataFileError, match="at most 1 MB"):
         read_written(path)
     with pytest.raises(DataFileError, match="a folder"):
         read_written(tmp_path)
     with pytest.raises(DataFileError, match="file"):
         read_written(tmp_path / "a\0b.yaml")
+
+
+def test_more_obstacles_than_a_scene_may_have(tmp_path):
+    content = {"arms": {}, "obstacles": dict.fromkeys(map(str, range(MOST_OBSTACLES + 1)))}
+    with pytest.raises(DataFileError, match=r"obstacles = 10001: expected at most 10000"):
+        scene_of(tmp_path / "scene.yaml", content)
 
 
 def test_an_alias_that_is_used_twice_is_welcome(tmp_path):
@@ -194,6 +201,7 @@ def test_what_is_wrong_with_a_shape_is_named(tmp_path, entry, message):
     [
         ("[{at: 1}, {at: 0}]", r"moving\.m\.path\.index"),
         ("[]", r"moving\.m\.path"),
+        ("[{at: 1.0e+9}]", r"moving\.m\.path\.0\.at = 1000000000"),
         ("[{at: .nan}]", r"moving\.m\.path\.0\.at = nan"),
     ],
 )

@@ -12,6 +12,7 @@ import numpy as np
 from ...errors import UnknownNameError
 from ...scene import JointPath, Scene, certified_minimum, distances
 from ...scene.broad_phase import near_scene
+from ..gate import ROUNDING, beyond_limits
 
 #: Wanted width of the bracket, and that tried where the wide one does not decide [m].
 TOLERANCE, FINE = 1e-3, 2e-5
@@ -56,7 +57,7 @@ class Truth:
     @property
     def within_limits(self) -> bool:
         """Whether no joint leaves its limits by more than rounding."""
-        return all(excess <= 1e-9 for excess in self.beyond_limits.values())
+        return all(excess <= ROUNDING for excess in self.beyond_limits.values())
 
     @property
     def verdict(self) -> Verdict:
@@ -99,13 +100,14 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     pair = None
     if len(near.pairs):
         pair = near.pairs.names[int(distances(near, found.q, found.time).argmin())]
-    lower, upper = scene.limits
-    excess = np.maximum(np.maximum(lower - q, q - upper), 0.0).max(axis=0)
+    excess = {
+        one.name: beyond_limits(one, q[:, scene.columns[one.name]]).max() for one in scene.arms
+    }
     return Truth(
         found.lower,
         found.upper,
         pair,
         found.time,
         {name: found.q[columns] for name, columns in scene.columns.items()},
-        {name: float(excess[columns].max()) for name, columns in scene.columns.items()},
+        {name: float(value) for name, value in excess.items()},
     )

@@ -42,17 +42,24 @@ def joints_of(
     if entry.tool is None:
         found = tip_posture(placed, entry.position, near, best_effort=entry.best_effort)
         return found.q, found.residual if found.residual > REACHED else 0.0
-    wanted = {"elbow": entry.elbow, "last_joint": entry.last_joint, "reference": entry.reference}
     try:
-        return posture(placed, entry.position, entry.tool, **wanted), 0.0
+        q = posture(
+            placed,
+            entry.position,
+            entry.tool,
+            elbow=entry.elbow,
+            last_joint=entry.last_joint,
+            reference=entry.reference,
+        )
+        return q, 0.0
     except UnsupportedArmError:
         if entry.elbow is not None:
             raise InputError(
                 f"arm {placed.name}", "elbow", entry.elbow, "none: this arm has no closed form"
             ) from None
     axis = tool_direction(placed, np.array(entry.position), entry.tool)
-    last = placed.arm.chain.rotation[-1].T[:, 2]  # axis of the last joint in the flange frame
-    if not np.allclose(last, [0.0, 0.0, 1.0]):
+    turn, column = placed.arm.fk(near)[:3, :3], placed.arm.jacobian(near)[3:, -1]
+    if not np.allclose(turn.T @ column, [0.0, 0.0, 1.0], atol=1e-6):
         expected = "an arm whose flange has its z along the last joint; give a pose instead"
         raise InputError(f"arm {placed.name}", "tool", entry.tool, expected)
     up = (0.0, 0.0, 1.0) if abs(axis[2]) < 0.9 else (1.0, 0.0, 0.0)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from ...scene.bodies import PlacedArm
+from ...scene.reshaped import stretched
 from ..field.control_points import end_effector
 from .tip_goal import REACHED
 
@@ -94,7 +95,7 @@ def pose_posture(
 
 def _descended(placed: PlacedArm, goal: PoseGoal, seed: np.ndarray) -> PosePosture:
     arm, base = placed.arm, placed.placement.rotation
-    length = float(np.linalg.norm(arm.chain.translation, axis=1).sum()) or 1.0
+    length = stretched(arm) or 1.0
 
     def residual(q: np.ndarray) -> np.ndarray:
         turn = base @ arm.fk(q)[:3, :3]

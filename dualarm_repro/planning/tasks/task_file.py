@@ -128,7 +128,12 @@ def load_tasks(path: str | Path) -> TaskSet[APFSettings]:
 
 
 @overload
-def load_tasks(path: str | Path, kind: type[_Settings]) -> TaskSet[_Settings]:
+def load_tasks(
+    path: str | Path,
+    kind: type[_Settings],
+    default: Callable[[Arm], _Settings] | None = None,
+    goals_needed: bool = True,
+) -> TaskSet[_Settings]:
     """With settings of that kind."""
 
 
@@ -225,7 +230,7 @@ class _Reading:
         for name in file.parked:
             if not self._unknown("parked", name) and name in file.tasks:
                 self._fault(f"parked.{name}", "a task", "an arm without a task")
-        for name in self._placed:
+        for name in self._placed if set(file.tasks) <= set(self._placed) else ():
             if name in file.tasks:
                 continue
             value = file.parked.get(name, self._written.arms[name].start)
