@@ -1,8 +1,9 @@
 """Tables of the arena, from rows whose answer is counted by hand."""
 
+import contest_rows
 import numpy as np
-import pandas as pd
 import pytest
+from contest_rows import A, B
 
 from dualarm_repro.arena.cases import KINDS
 from dualarm_repro.arena.judged import Outcome
@@ -23,27 +24,10 @@ from dualarm_repro.cli.arena import KINDS as TOLD
 from dualarm_repro.ledger.shares import Share
 from dualarm_repro.planning import METHODS
 
-A, B = "rrt-connect", "apf-improved"
-
-
-def made(number, method, outcome, length=np.nan, evaluations=0, claim=False):
-    task = {"kind": "random", "group": "g", "subject": "s", "number": number}
-    values = {"joint_length": length, "evaluations": evaluations, "claim": claim}
-    return {**task, "method": method, "outcome": str(outcome), **values}
-
 
 @pytest.fixture
 def table():
-    """Task 0: both; 1: only A; 2: nobody but the witness; 3: nobody; 4: ends in contact."""
-    ok, hit, stop = Outcome.SUCCESS, Outcome.COLLIDES, Outcome.STOPPED
-    rows = [
-        made(0, WITNESS, ok), made(0, A, ok, 2.0, 100, True), made(0, B, ok, 6.0, 50, True),
-        made(1, WITNESS, stop), made(1, A, ok, 3.0, 300, True), made(1, B, hit, 1.0, 20, True),
-        made(2, WITNESS, ok), made(2, A, stop, 0.0, 20_000), made(2, B, stop, 1.0, 40),
-        made(3, WITNESS, stop), made(3, A, stop), made(3, B, hit, 1.0, 10, True),
-        *(made(4, name, Outcome.NO_TASK) for name in (WITNESS, A, B)),
-    ]  # fmt: skip
-    return pd.DataFrame(rows)
+    return contest_rows.table()
 
 
 def test_success_counts_feasible_tasks_only(table):
