@@ -20,6 +20,8 @@ from .tasks.task_file import TaskSet
 
 #: A joint this near to its goal has arrived [rad].
 ARRIVED = 1e-2
+#: A path begins at the start if no joint is further from it, which is rounding [rad].
+_SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +97,7 @@ def run_planner(name: str, planner: PathPlanner, problem: PathProblem) -> Coordi
     if not isinstance(found, FoundPath):
         raise InputError(f"planner {name}", "answer", type(found).__name__, "a FoundPath")
     path = problem.scene.configurations(found.path)
-    if path.ndim != 2 or not len(path) or np.abs(path[0] - problem.start).max() > ARRIVED:
+    if path.ndim != 2 or not len(path) or np.abs(path[0] - problem.start).max() > _SAME:
         expected = f"rows of {problem.scene.nq} joints that begin at the start"
         raise InputError(f"planner {name}", "path", path.shape, expected)
     return as_plan(problem, replace(found, path=path))
@@ -107,7 +109,7 @@ def as_method(name: str, description: str, load: Callable[[], PathPlanner]) -> M
     Parameters
     ----------
     load : callable
-        Gives the planner when it is first wanted, so that a list of methods imports none.
+        Gives the planner when it is to plan.
     """
 
     def plan(
