@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from dualarm_repro.arena import ARENA
+from dualarm_repro.arena import ARENA, Outcome
 from dualarm_repro.baselines import BASELINES
 from dualarm_repro.planning import METHODS
 
@@ -111,8 +111,11 @@ def test_arena_judges_chosen_planners_and_stores_nothing(dualarm):
     assert code == 0
     rows = {one["method"]: one for one in json.loads(out)}
     assert set(rows) == {"attraction-only", "mutual-avoidance-qp"}
-    assert rows["attraction-only"]["tasks"] == 1
-    assert rows["attraction-only"]["share"] == 0.0  # the straight line is blocked
+    for row in rows.values():
+        outcomes = {str(one) for one in Outcome} & set(row)
+        assert row["tasks"] == 1 == sum(row[one] for one in outcomes)
+        assert row["share"] == row[str(Outcome.SUCCESS)]
+    assert rows["mutual-avoidance-qp"][str(Outcome.COLLIDES)] == 0  # it yields rather than touch
     assert (ARENA.table_path.exists() and ARENA.table_path.stat().st_mtime) == before
 
 
