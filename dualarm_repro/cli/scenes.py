@@ -55,7 +55,9 @@ def check(
 
 
 @examples("dualarm view cell.yaml", "dualarm view tasks.yaml out/tasks_left.csv --out pages")
-def view(scene: SceneFile, paths: PathFiles = None, out: Out = Path("out")) -> None:
+def view(
+    scene: SceneFile, paths: PathFiles = None, out: Out = Path("out"), as_json: AsJson = False
+) -> None:
     """Write the 3-D page of a scene, or of paths through it, without planning."""
     with progress.waiting(f"drawing {scene.name}"):
         from ..ledger.files import write_text
@@ -63,7 +65,10 @@ def view(scene: SceneFile, paths: PathFiles = None, out: Out = Path("out")) -> N
 
         html = check_scene(loaded(scene), list(paths or []), scene.stem).html()
         page = write_text(out / f"{scene.stem}_view.html", html)
-    output.print_written([page])
+    if as_json:
+        output.print_json({"scene": scene.name, "files": [str(page)]})
+    else:
+        output.print_written([page])
 
 
 def print_links(summary: dict[str, Any]) -> None:

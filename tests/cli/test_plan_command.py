@@ -147,6 +147,8 @@ def test_view_draws_without_planning(dualarm, sweep, tmp_path):
     assert code == 0
     page = tmp_path / "o" / "sweep_view.html"
     assert told(out)["written"] == str(page)
+    made = json.loads(dualarm("view", sweep, "--out", tmp_path / "o", "--json")[1])
+    assert made == {"scene": "sweep.yaml", "files": [str(page)]}
     text = page.read_text()
     assert "left" in text
     assert "right" in text
