@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from dualarm_repro.planning import METHODS, certified_clearance, plan_file, plan_master_slave
+from dualarm_repro.planning import METHODS, certified_clearance, plan_file, plan_master_slave, truth
 
 
 def careful(given, tasks):
@@ -28,5 +28,5 @@ for name in ("apf-improved", "apf-careful"):
     found = plan_file(tasks, name)
     print(f"{name}: {METHODS[name].description}")
     print(f"  arrived: {[bool(plan.reached) for plan in found.plans.values()]}")
-    bounds = certified_clearance(found.scene, found.paths)
-    print(f"  links at least {bounds.lower:.4f} m apart, {len(found.index)} steps")
+    judged = truth(found.scene, found.paths)
+    print(f"  {judged.verdict}: at least {judged.lower:.4f} m apart, {len(found.index)} steps")

@@ -37,6 +37,7 @@ _FOLDERS = {
     ("data/papers", "*.yaml"): "Items, assumptions and errata of document {}",
     ("data/robots", "*.yaml"): "Geometry and limits of robot {}, each number with its source",
     ("data/scenes", "*.yaml"): "Scene or task {}",
+    ("data/benchmarks", "*.json"): "Public planning problems: {}",
     ("data/results", "*.json"): "Reference results or settings of a stored study: {}",
     ("data/results", "*.parquet"): "Cells of the stored study {}",
     ("data/results/robustness", "*.json"): "Settings of the draws behind the verdict on {}",

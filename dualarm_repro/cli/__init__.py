@@ -20,10 +20,13 @@ from ..errors import DualArmError, LedgerError
 TRACEBACK_VARIABLE = "DUALARM_TRACEBACK"
 #: Exit codes beside 0; 1 also stands for a check that failed.
 FAILED, BAD_INPUT, UNFORESEEN, INTERRUPTED = 1, 2, 70, 130
+#: Files were written, but the motion in them did not arrive or is not certified free of contact.
+NOT_USABLE = 3
 
 
 def main() -> None:
-    """Entry point: exit with 0, 1 for a failed check, 2 for bad input, 130 when interrupted."""
+    """Entry point: exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not
+    be run, 130 when interrupted."""
     with _interruptions() as seen:
         try:
             code = _answer(sys.argv[1:])
@@ -60,7 +63,9 @@ def _ending(error: BaseException) -> int:
     if isinstance(error, LedgerError):
         return _said(str(error), FAILED)
     if isinstance(error, DualArmError):
-        return _said(str(error), BAD_INPUT)
+        for line in getattr(error, "lines", [str(error)]):
+            _said(line, BAD_INPUT)
+        return BAD_INPUT
     if isinstance(error, BrokenPipeError):  # the reader of a pipe went away
         _mute(sys.stdout)
         return 0

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 from typer.main import get_command
 
-from . import checking, items, planners, publishing, running
+from . import arena, checking, every_planner, items, publishing, running, scenes, timing
 from .examples import Command, Group
 
 #: Every command by its name, in the order of the help.
@@ -19,8 +19,12 @@ COMMANDS: dict[str, Callable[..., Any]] = {
     "verify": checking.verify,
     "robustness": checking.robustness,
     "study": checking.study,
-    "methods": planners.methods,
-    "plan": planners.plan,
+    "methods": every_planner.methods,
+    "plan": every_planner.plan,
+    "check": scenes.check,
+    "view": scenes.view,
+    "time": timing.time,
+    "arena": arena.arena,
     "cite": publishing.cite,
     "export": publishing.export_ledger,
     "new-document": publishing.add_document,

@@ -38,3 +38,7 @@ Scheduler = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="machine-readable output")]
 Out = Annotated[Path, typer.Option(metavar="DIR", help="folder for the files")]
+AllowCollision = Annotated[
+    bool,
+    typer.Option("--allow-collision", help="go on although bodies touch at the start or the goal"),
+]

@@ -44,6 +44,6 @@ def studies(incomplete: str) -> list[str]:
 
 def methods(incomplete: str) -> list[str]:
     """Names of the planners."""
-    from ..planning.methods import METHODS
+    from ..baselines.registry import enlist
 
-    return [name for name in METHODS if name.startswith(incomplete)]
+    return [name for name in enlist() if name.startswith(incomplete)]

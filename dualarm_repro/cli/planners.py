@@ -8,9 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
-from . import completion, output, progress
-from .arguments import AsJson, Out
+from . import NOT_USABLE, completion, output, progress
+from .arguments import AllowCollision, AsJson, Out
 from .examples import examples
+from .scenes import print_links
 
 
 @examples("dualarm methods", "dualarm methods --json")
@@ -48,45 +49,61 @@ def plan(
         ),
     ],
     out: Out = Path("out"),
+    allow_collision: AllowCollision = False,
     as_json: AsJson = False,
 ) -> None:
     """Plan the tasks of your own arms.
 
     Writes STEM.json, STEM_ARM.csv and the 3-D scene STEM.html, and says how closely bodies pass.
+    Exit code 0: all arrive and are certified free of contact; 3: not so, and the files say so; 2:
+    bad input, nothing is written.
     """
     with progress.waiting(f"planning {scene.name} by {method}"):
         from ..ledger.files import to_json, write_text
+        from ..planning.checks.truth import truth
         from ..planning.methods import plan_file
-        from ..view.plan_report import plan_scene, plan_summary
+        from ..view.plan_report import plan_reached, plan_scene, plan_summary, told, usable
 
-        found = plan_file(scene, method)
-        summary = {"scene": scene.name, "method": method, **plan_summary(found)}
-        html = plan_scene(found, f"{scene.stem} by {method}").html()
-        files = [write_text(out / f"{scene.stem}.json", to_json(summary))]
+        found = plan_file(scene, method, allow_collision)
+        judged, reached = truth(found.scene, found.paths), plan_reached(found)
+        outcome, good = told(judged, reached), usable(judged, reached)
+        made = {"scene": scene.name, "method": method, "usable": good, "outcome": outcome}
+        summary = {**made, **plan_summary(found, judged)}
+        mark = "" if good else f"# DO NOT RUN: {outcome}\n"
+        title = f"{scene.stem} by {method}" + ("" if good else f": {outcome}")
+        texts = {out / f"{scene.stem}.json": to_json(summary)}
         for name, one in found.plans.items():
-            files.append(write_text(out / f"{scene.stem}_{name}.csv", one.to_frame().to_csv()))
-        page = write_text(out / f"{scene.stem}.html", html)
-    again = join(["dualarm", "plan", str(scene), "--method", method, "--out", str(out)])
+            texts[out / f"{scene.stem}_{name}.csv"] = mark + one.to_frame().to_csv()
+        page = out / f"{scene.stem}.html"
+        texts[page] = plan_scene(found, title).html()
+        files = [write_text(path, text) for path, text in texts.items()]
+    allowed = ["--allow-collision"] * allow_collision
+    again = join(["dualarm", "plan", str(scene), "--method", method, "--out", str(out), *allowed])
     view = join(["python3", "-m", "webbrowser", page.resolve().as_uri()])
     if as_json:
-        written = [str(path) for path in (*files, page)]
+        written = [str(path) for path in files]
         output.print_json({**summary, "files": written, "again": again, "view": view})
-        return
-    _print_outcome(summary)
-    output.print_written([*files, page])
-    print(f"again: {again}")
-    print(f"view: {view}")
+    else:
+        _print_outcome(summary)
+        output.print_written(files)
+        print(f"again: {again}")
+        print(f"view: {view}")
+    if not good:
+        raise typer.Exit(NOT_USABLE)
 
 
 def _print_outcome(summary: dict[str, Any]) -> None:
     for name, entry in summary["arms"].items():
+        if "out_of_reach_m" not in entry:
+            print(f"{name}: {entry['reason']}")
+            continue
         print(f"{name}: {entry['reason']} after {entry['steps']} steps")
         if missed := entry["out_of_reach_m"]:
             print(f"  goal out of reach by {missed:.4f} m: planned to the nearest posture")
+        if excess := entry["beyond_limits_rad"]:
+            print(f"  beyond a joint limit by {excess:.4g} rad")
         if entry["certificate"]:
             certificate = entry["certificate"]
             print(f"  {', '.join(f'{key} {value}' for key, value in certificate.items())}")
-    links = summary["links"]
-    collision = "" if links["collision_free"] else ": COLLISION, do not run this on robots"
-    pair, distance = " - ".join(links["pair"]), links["minimum_distance_m"]
-    print(f"closest bodies: {pair} {distance:.4f} m{collision}")
+    print_links(summary)
+    print(f"outcome: {summary['outcome']}")

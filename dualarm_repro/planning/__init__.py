@@ -6,6 +6,7 @@ from .checks.link_clearance import (
     link_clearance,
     require_links_clear,
 )
+from .checks.truth import Truth, Verdict, truth
 from .descent.apf import plan_apf
 from .descent.batch import Batch, perturbed, plan_batch
 from .descent.cartesian_ik import plan_cartesian_ik, plan_cartesian_ik_batch
@@ -13,12 +14,15 @@ from .descent.certificate import Certificate, certify
 from .descent.compiled import plan_apf_compiled
 from .descent.follow_reason import FollowReason
 from .descent.termination import StopReason
+from .faults import TaskFaults
 from .field.control_points import ControlPoints, control_points
 from .field.obstacles import Obstacles, obstacles_of
 from .field.potentials import JointAttraction, PointRepulsion, PositionAttraction, Sum
+from .gate import require_sound
 from .master_slave import CoordinatedPlan, Task, at_tool_speed, plan_master_slave
 from .methods import METHODS, Method, method, plan_file, settings_schema
 from .plan import Plan
+from .planner import FoundPath, PathPlanner, PathProblem, PlannerSettings
 from .settings import (
     APFSettings,
     Attraction,
@@ -45,11 +49,15 @@ __all__ = [
     "ControlPoints",
     "CoordinatedPlan",
     "FollowReason",
+    "FoundPath",
     "JointAttraction",
     "LinkClearance",
     "Method",
     "Obstacles",
+    "PathPlanner",
+    "PathProblem",
     "Plan",
+    "PlannerSettings",
     "PointRepulsion",
     "PositionAttraction",
     "Repulsion",
@@ -58,11 +66,14 @@ __all__ = [
     "Sum",
     "Switching",
     "Task",
+    "TaskFaults",
     "TaskSet",
     "Termination",
     "Trap",
+    "Truth",
     "Update",
     "UpdateRule",
+    "Verdict",
     "VirtualPoint",
     "at_tool_speed",
     "certified_clearance",
@@ -82,5 +93,7 @@ __all__ = [
     "plan_master_slave",
     "posture",
     "require_links_clear",
+    "require_sound",
     "settings_schema",
+    "truth",
 ]

@@ -24,6 +24,7 @@ def default_settings(arm: Arm) -> APFSettings:
             step_limit=5000,
             trap=Trap(rule="block_means", steps=50, threshold=1e-3),
         ),
+        enforce_limits=True,
     )
 
 
@@ -41,6 +42,7 @@ def default_two_arm_settings(arm: Arm) -> TwoArmSettings:
         variable_gain={"rule": "power", "band": 0.1 * influence},
         step={"length": 0.05, "rule": "saturating"},
         ending={"tolerance": 0.06, "search_limit": 500, "stuck_searches": 60},
+        enforce_limits=True,
     )
 
 

@@ -9,14 +9,16 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from ..arms import Arm
-from ..errors import InputError, UnknownNameError
+from ..errors import DualArmError, InputError, UnknownNameError
+from ..scene import JointPath, Scene
 from ..settings import Settings
-from .checks.link_clearance import require_links_clear
 from .defaults import default_settings, default_two_arm_settings
 from .descent.cartesian_ik import plan_cartesian_ik
 from .descent.compiled import plan_apf_compiled
+from .gate import require_sound
 from .master_slave import CoordinatedPlan, Planner, Task, plan_master_slave
 from .plan import Plan
+from .planner_view import planner_scene, with_parked
 from .search.bidirectional_arms import (
     SplicedPlan,
     TwoArmSettings,
@@ -45,6 +47,9 @@ class Method(Generic[_Settings]):
         Arm -> settings that suit its size, for a scene that brings none.
     plan : callable
         Task set and tasks of the arms -> their plans.
+    whole : bool
+        Whether it takes every shape as it is; else the scene is simplified for it, see
+        :func:`.planner_view.planner_scene`. Parked arms are obstacles either way.
     """
 
     name: str
@@ -53,20 +58,36 @@ class Method(Generic[_Settings]):
     settings: type[_Settings]
     default: Callable[[Arm], _Settings]
     plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
+    whole: bool = False
 
-    def planned(self, path: str | Path) -> AnyPlan:
+    def planned(self, path: str | Path, allow_collision: bool = False) -> AnyPlan:
         """See :func:`plan_file`."""
-        given = load_tasks(path, self.settings)
-        arms = {placed.name: placed for placed in given.scene.arms}
+        given = load_tasks(path, self.settings, self.default)
+        require_sound(given.path, given.scene, given.starts, given.goals, allow_collision)
         tasks = {
-            arm: Task(
-                task.start, task.goal, self.adapted(given.settings or self.default(arms[arm].arm))
-            )
+            arm: Task(task.start, task.goal, self.adapted(given.settings[arm]))
             for arm, task in given.tasks.items()
         }
-        require_links_clear(given.scene, {arm: task.start for arm, task in given.tasks.items()})
+        found = self._answered(replace(given, scene=self._told(given)), tasks)
+        parked = {arm: JointPath([q]) for arm, q in given.parked.items()}
         residuals = {arm: task.residual for arm, task in given.tasks.items() if task.residual > 0.0}
-        return replace(self.plan(given, tasks), residuals=residuals)
+        return replace(found, scene=given.scene, paths=found.paths | parked, residuals=residuals)
+
+    def _told(self, given: TaskSet[_Settings]) -> Scene:
+        if self.whole:
+            return with_parked(given.scene, given.parked)
+        starts = {arm: task.start for arm, task in given.tasks.items()}
+        return planner_scene(given.scene, starts, given.parked)
+
+    def _answered(self, told: TaskSet[_Settings], tasks: dict[str, Task[_Settings]]) -> AnyPlan:
+        """The plan; what a library below raises becomes an error of this one."""
+        try:
+            return self.plan(told, tasks)
+        except DualArmError:
+            raise
+        except (ArithmeticError, LookupError, RuntimeError, ValueError) as error:
+            expected = f"a task that {self.name} can plan ({type(error).__name__}: {error})"
+            raise InputError(told.path, "method", self.name, " ".join(expected.split())) from error
 
 
 def _traditional(settings: APFSettings) -> APFSettings:
@@ -183,14 +204,24 @@ def settings_schema(name: str) -> dict[str, Any]:
     return method(name).settings.model_json_schema()
 
 
-def plan_file(path: str | Path, name: str) -> AnyPlan:
+def plan_file(path: str | Path, name: str, allow_collision: bool = False) -> AnyPlan:
     """Plan the tasks of a task file or scene file by a method, arm after arm.
+
+    Every arm of the scene counts: one without a task is parked at its start. What the plan is
+    worth says :func:`.checks.truth.truth` of its scene and paths.
+
+    Parameters
+    ----------
+    allow_collision : bool
+        Let bodies touch at the start and at the goal.
 
     Raises
     ------
     UnknownNameError
         No such method.
     DataFileError, InputError
-        A wrong file; two bodies that touch at the start; a goal out of reach.
+        A wrong file; a goal out of reach.
+    TaskFaults
+        Bodies that touch, or joints beyond their limits, at the start or at the goal.
     """
-    return method(name).planned(path)
+    return method(name).planned(path, allow_collision)

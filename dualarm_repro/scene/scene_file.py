@@ -1,4 +1,4 @@
-"""Scene files: arms on their bases, obstacles and floor in YAML.
+"""Scene files: arms on their bases, tools, obstacles that stand or move, and floor in YAML.
 
 Lengths are metres in the world frame, angles radians, ``"90 deg"`` or multiples of pi such as
 ``"-pi/2"``; ``rpy`` is R = Rz(yaw) Ry(pitch) Rx(roll).
@@ -7,113 +7,46 @@ Lengths are metres in the world frame, angles radians, ``"90 deg"`` or multiples
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, NamedTuple
 
-import numpy as np
 import pinocchio as pin
-from pydantic import BeforeValidator, Field, StringConstraints
+from pydantic import Field
 
-from ..arms import load_arm
-from ..arms.angle import EXPECTED, Angle
-from ..datafiles import StrictModel, read_yaml
-from ..errors import DataFileError, InputError
+from ..arms import Arm, load_arm
+from ..datafiles import StrictModel
+from ..errors import DataFileError, DualArmError, InputError
 from .bodies import PlacedArm
-from .hull import ConvexHull
+from .configuration_entry import Configuration
+from .moving import MovingShape, PosePath
+from .quantity_entries import UPRIGHT, BodyName, Name, Number, Point, Radians, Rpy, pose_of
 from .scene import Scene
-from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, facing, window_frame
+from .shape_entries import ObstacleEntry, SolidEntry
+from .shapes import Shape
+from .tool import with_tool
+from .written import read_written
 
-Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
-BodyName = Annotated[str, StringConstraints(min_length=1)]
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Length = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
-Radians = Annotated[
-    float,
-    BeforeValidator(lambda value: float(Angle.parse(value))),
-    Field(description=EXPECTED, json_schema_extra={"type": ["number", "string"]}),
-]
-Point = tuple[Number, Number, Number]
-Size = tuple[Length, Length, Length]
-Rpy = tuple[Radians, Radians, Radians]
-_UPRIGHT = (0.0, 0.0, 0.0)
+#: Most obstacles of a scene.
+MOST_OBSTACLES = 10_000
+#: Largest index of a trajectory; planners look at every step up to it.
+LONGEST = 100_000
 
 
-class SphereEntry(StrictModel):
-    """A ball."""
+class TipEntry(StrictModel):
+    """Pose of the tool centre point in the frame of the flange."""
 
-    kind: Literal["sphere"]
-    center: Point
-    radius: Length
-
-    def shape(self) -> Sphere:
-        """The obstacle."""
-        return Sphere(self.center, self.radius)
+    xyz: Point = (0.0, 0.0, 0.0)
+    rpy: Rpy = UPRIGHT
 
 
-class CapsuleEntry(StrictModel):
-    """Everything within a radius of a segment."""
+class ToolEntry(StrictModel):
+    """What an arm holds: shapes in the frame of its flange, and where its tip is."""
 
-    kind: Literal["capsule"]
-    start: Point
-    end: Point
-    radius: Length
-
-    def shape(self) -> Capsule:
-        """The obstacle."""
-        return Capsule(self.start, self.end, self.radius)
-
-
-class BoxEntry(StrictModel):
-    """A box with full edge lengths."""
-
-    kind: Literal["box"]
-    center: Point
-    size: Size
-    rpy: Rpy = _UPRIGHT
-
-    def shape(self) -> Box:
-        """The obstacle."""
-        return Box(self.center, self.size, pin.rpy.rpyToMatrix(*self.rpy))
-
-
-class HalfSpaceEntry(StrictModel):
-    """Everything below a plane, e.g. a wall."""
-
-    kind: Literal["halfspace"]
-    normal: Point
-    offset: Number
-
-    def shape(self) -> HalfSpace:
-        """The obstacle."""
-        return HalfSpace(self.normal, self.offset)
-
-
-class WindowEntry(StrictModel):
-    """Four bars around an opening: top, bottom, left, right."""
-
-    kind: Literal["window"]
-    center: Point
-    normal: Point
-    up: Point = (0.0, 0.0, 1.0)
-    opening_width: Length
-    opening_height: Length
-    bar_width: Length
-    bar_depth: Length
-
-    def shape(self) -> tuple[Box, ...]:
-        """The obstacle."""
-        sizes = (self.opening_width, self.opening_height, self.bar_width, self.bar_depth)
-        return window_frame(self.center, facing(self.normal, self.up), *sizes)
-
-
-class HullEntry(StrictModel):
-    """Convex hull of points."""
-
-    kind: Literal["hull"]
-    points: list[Point] = Field(min_length=4)
-
-    def shape(self) -> ConvexHull:
-        """The obstacle."""
-        return ConvexHull(self.points)
+    shapes: list[SolidEntry] = Field(
+        default=[], max_length=50, description="each is watched as the capsule around it"
+    )
+    tip: TipEntry | None = Field(
+        default=None, description="positions and poses of goals are then those of the tip"
+    )
 
 
 class ArmEntry(StrictModel):
@@ -123,26 +56,39 @@ class ArmEntry(StrictModel):
         min_length=1, description="name in data/robots, or path from the scene file to URDF/YAML"
     )
     xyz: Point = (0.0, 0.0, 0.0)
-    rpy: Rpy = _UPRIGHT
+    rpy: Rpy = UPRIGHT
     flange: str | None = Field(default=None, description="only for a URDF: frame used as flange")
     lock: dict[str, Radians] | None = Field(
         default=None, description="only for a URDF: joint: angle it is fixed at"
     )
-    start: list[Radians] | None = Field(default=None, description="joint vector a plan starts from")
-    goal: list[Radians] | None = Field(default=None, description="joint vector a plan ends at")
+    tool: ToolEntry | None = Field(default=None, description="a tool or a part that it carries")
+    start: Configuration | None = Field(
+        default=None, description="where a plan starts, or where the arm is parked"
+    )
+    goal: Configuration | None = Field(default=None, description="where a plan ends")
 
 
-Obstacle = Annotated[
-    SphereEntry | CapsuleEntry | BoxEntry | HalfSpaceEntry | WindowEntry | HullEntry,
-    Field(discriminator="kind"),
-]
+class WaypointEntry(StrictModel):
+    """A pose at an index that all motions of a scene share: a step of the plan, or a time."""
+
+    at: Annotated[Number, Field(ge=0, le=LONGEST)]
+    xyz: Point = (0.0, 0.0, 0.0)
+    rpy: Rpy = UPRIGHT
+
+
+class MovingEntry(StrictModel):
+    """A shape whose frame passes waypoints, linear in between and held before and after."""
+
+    shape: SolidEntry
+    path: list[WaypointEntry] = Field(min_length=1)
 
 
 class SceneFile(StrictModel):
     """Content of a scene file."""
 
     arms: dict[Name, ArmEntry] = Field(min_length=1)
-    obstacles: dict[Name, Obstacle] = Field(default_factory=dict)
+    obstacles: dict[Name, ObstacleEntry] = Field(default_factory=dict)
+    moving: dict[Name, MovingEntry] = Field(default_factory=dict)
     floor: Number | None = Field(default=None, description="height of a floor")
     exempt: list[tuple[BodyName, BodyName]] = Field(
         default=[], description="pairs of bodies or owners that may touch"
@@ -150,8 +96,18 @@ class SceneFile(StrictModel):
     self_collision: bool = True
 
 
+class WrittenScene(NamedTuple):
+    """A scene and what its file says, which holds starts and goals that are no joint vectors."""
+
+    file: SceneFile
+    scene: Scene
+
+
 def load_scene(path: str | Path) -> Scene:
     """Read a scene file.
+
+    Starts and goals given as joint vectors come with the arms; those given as positions or poses
+    are for :func:`dualarm_repro.planning.load_tasks`.
 
     Raises
     ------
@@ -159,22 +115,34 @@ def load_scene(path: str | Path) -> Scene:
         With the offending field, its value and what was expected; also for an unknown robot, a
         robot file that is wrong itself, or a name that two bodies share.
     UnsupportedArmError
-        A robot is no serial chain of revolute joints.
+        A robot is no serial chain of joints that the library knows.
     """
     path = Path(path)
-    content = SceneFile.checked(path, read_yaml(path))
-    arms = [_placed(path, name, entry) for name, entry in content.arms.items()]
-    obstacles = {name: _shape(path, name, entry) for name, entry in content.obstacles.items()}
+    return scene_of(path, read_written(path)).scene
+
+
+def scene_of(path: Path, content: dict[str, Any]) -> WrittenScene:
+    """The scene of a file whose content has been read; errors as in :func:`load_scene`."""
+    counted = content.get("obstacles")
+    if isinstance(counted, dict) and len(counted) > MOST_OBSTACLES:
+        expected = f"at most {MOST_OBSTACLES} obstacles"
+        raise DataFileError(path, "obstacles", len(counted), expected)
+    file = SceneFile.checked(path, content)
+    arms = [_placed(path, name, entry) for name, entry in file.arms.items()]
+    obstacles = {n: _shapes(path, f"obstacles.{n}", one) for n, one in file.obstacles.items()}
+    moving = {name: _moving(path, name, entry) for name, entry in file.moving.items()}
     try:
-        return Scene(
+        scene = Scene(
             arms,
-            obstacles,
-            floor=content.floor,
-            exempt=content.exempt,
-            self_collision=content.self_collision,
+            {n: found[0] if len(found) == 1 else found for n, found in obstacles.items()},
+            moving=moving,
+            floor=file.floor,
+            exempt=file.exempt,
+            self_collision=file.self_collision,
         )
     except InputError as error:
         raise DataFileError(path, error.field, error.value, error.expected) from None
+    return WrittenScene(file, scene)
 
 
 def json_schema() -> dict[str, Any]:
@@ -183,22 +151,53 @@ def json_schema() -> dict[str, Any]:
 
 
 def _placed(path: Path, name: str, entry: ArmEntry) -> PlacedArm:
-    placement = pin.SE3(pin.rpy.rpyToMatrix(*entry.rpy), np.array(entry.xyz))
     beside = path.parent / entry.robot
-    robot = beside if beside.is_file() else entry.robot
     try:
-        arm = load_arm(robot, flange=entry.flange, lock=entry.lock)
-        return PlacedArm(name, arm, placement, entry.start, entry.goal)
+        robot: Path | str = beside if beside.is_file() else entry.robot
+        arm = _with_tool(path, name, entry, load_arm(robot, flange=entry.flange, lock=entry.lock))
+        ends = (q if isinstance(q, list) else None for q in (entry.start, entry.goal))
+        return PlacedArm(name, arm, pose_of(entry.xyz, entry.rpy), *ends)
     except DataFileError:
         raise
     except InputError as error:
         field = f"arms.{name}: {error.field}"
         raise DataFileError(path, field, error.value, error.expected) from None
+    except DualArmError:
+        raise
+    except (ValueError, RuntimeError, IndexError, OSError) as error:  # of a library below
+        expected = "a robot that can be loaded"
+        raise DataFileError(
+            path, f"arms.{name}.robot", f"{entry.robot}: {error}", expected
+        ) from None
 
 
-def _shape(path: Path, name: str, entry: Any) -> Shape | tuple[Box, ...]:
+def _with_tool(path: Path, name: str, entry: ArmEntry, arm: Arm) -> Arm:
+    if entry.tool is None:
+        return arm
+    shapes: list[Shape] = []
+    for k, one in enumerate(entry.tool.shapes):
+        shapes += _shapes(path, f"arms.{name}.tool.shapes.{k}", one)
+    tip = entry.tool.tip
+    return with_tool(arm, shapes, tip and pose_of(tip.xyz, tip.rpy))
+
+
+def _shapes(path: Path, field: str, entry: Any) -> tuple[Shape, ...]:
     try:
-        return entry.shape()
+        return entry.shapes(path.parent)
+    except DataFileError:
+        raise
     except InputError as error:
-        field = f"obstacles.{name}.{error.field}"
+        raise DataFileError(path, f"{field}.{error.field}", error.value, error.expected) from None
+
+
+def _moving(path: Path, name: str, entry: MovingEntry) -> MovingShape:
+    shapes = _shapes(path, f"moving.{name}.shape", entry.shape)
+    if len(shapes) > 1:
+        expected = "1: what moves is one convex body"
+        raise DataFileError(path, f"moving.{name}.shape.parts", len(shapes), expected)
+    poses: list[pin.SE3] = [pose_of(one.xyz, one.rpy) for one in entry.path]
+    try:
+        return MovingShape(shapes[0], PosePath(poses, [one.at for one in entry.path]))  # type: ignore[arg-type]
+    except InputError as error:
+        field = f"moving.{name}.path.{error.field}"
         raise DataFileError(path, field, error.value, error.expected) from None

@@ -1,4 +1,4 @@
-"""What `dualarm plan` gives away: why each arm stopped, how close links came, paths and a scene."""
+"""What `dualarm plan` gives away: who arrived, how close whole bodies come, a scene."""
 
 from __future__ import annotations
 
@@ -9,69 +9,118 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ..errors import UnsupportedArmError
+from ..errors import DataFileError, DualArmError, UnsupportedArmError
+from ..planning.checks.truth import Truth, Verdict, truth
+from ..planning.faults import TaskFaults
 from ..planning.methods import METHODS, AnyPlan, plan_file
-from ..scene import clearance
 from .page import Page
 from .scene3d import Scene3D
-from .scenes.nearest import Nearest, nearest_of
-from .style import PALETTE
+from .task_scene import drawn_scene
 
-#: Joint step between two link checks [rad].
-CHECK_STEP = 0.01
-_OBSTACLE = "#9A9A9A"
-_COMPARED = ("arrive", "steps", "smallest distance [m]", "between")
+_COMPARED = ("arrive", "outcome", "steps", "certified distance [m]", "between")
+PARKED = "parked"
 
 
-def plan_summary(plan: AnyPlan) -> dict[str, Any]:
-    """Outcome of every arm, and the smallest distance of any two bodies on the densified motion."""
-    links = plan.links(CHECK_STEP)
-    pair, step = links.nearest if links.pairs else ((), None)
+def plan_summary(plan: AnyPlan, found: Truth | None = None) -> dict[str, Any]:
+    """Outcome of every arm of the scene, and the certified distance of all bodies.
+
+    Parameters
+    ----------
+    found : Truth, optional
+        What :func:`.truth` says of the plan, if it is known already.
+    """
+    found = found or truth(plan.scene, plan.paths)
+    arms: dict[str, dict[str, Any]] = {
+        name: {
+            "reason": str(one.reason),
+            "reached": bool(one.reached),
+            "steps": one.steps,
+            "joint_length_rad": one.length,
+            "tcp_length_m": one.tcp_length,
+            "outside_limits": list(one.outside_limits),
+            "beyond_limits_rad": found.beyond_limits[name],
+            "out_of_reach_m": plan.residuals.get(name, 0.0),
+            "certificate": asdict(one.certificate) if one.certificate else None,
+        }
+        for name, one in plan.plans.items()
+    }
+    for name in plan.scene.columns:
+        if name not in arms:
+            still = {"steps": 0, "beyond_limits_rad": found.beyond_limits[name]}
+            arms[name] = {"reason": PARKED, "reached": True, **still}
+    return {"arms": arms, "reached": plan_reached(plan), **judged(found)}
+
+
+def plan_reached(plan: AnyPlan) -> bool:
+    """Whether every arm with a task arrived."""
+    return all(bool(one.reached) for one in plan.plans.values())
+
+
+def judged(found: Truth) -> dict[str, Any]:
+    """The part of a summary that holds for any motion."""
     return {
-        "arms": {
-            name: {
-                "reason": str(one.reason),
-                "steps": one.steps,
-                "joint_length_rad": one.length,
-                "tcp_length_m": one.tcp_length,
-                "outside_limits": list(one.outside_limits),
-                "out_of_reach_m": plan.residuals.get(name, 0.0),
-                "certificate": asdict(one.certificate) if one.certificate else None,
-            }
-            for name, one in plan.plans.items()
-        },
+        "within_limits": found.within_limits,
         "links": {
-            "minimum_distance_m": links.minimum,
-            "pair": list(pair),
-            "step": step,
-            "collision_free": links.minimum > 0.0,
+            "minimum_distance_m": found.lower,
+            "bracket_m": [found.lower, found.upper],
+            "pair": list(found.pair or ()),
+            "step": found.index,
+            "collision_free": found.collision_free,
+            "verdict": str(found.verdict),
         },
     }
 
 
-def compare_methods(path: str | Path) -> pd.DataFrame:
-    """Outcome of every method on a task file: arms that arrive, and how close whole links come.
+def told(found: Truth, reached: bool) -> str:
+    """Outcome in words: everything that keeps a motion from being run, or that nothing does."""
+    wrong = [] if reached else ["not arrived"]
+    wrong += [] if found.within_limits else ["beyond joint limits"]
+    wrong += [] if found.collision_free else [str(found.verdict)]
+    return ", ".join(wrong) or f"arrived, {Verdict.FREE}"
 
-    A method that does not take one of the arms says why.
+
+def usable(found: Truth, reached: bool) -> bool:
+    """Whether all arrived, within their limits and certified free of contact."""
+    return reached and found.within_limits and found.collision_free
+
+
+def compare_methods(path: str | Path) -> pd.DataFrame:
+    """Outcome of every method on a task file: arms that arrive, and how close whole bodies come.
+
+    A method that does not take the task says why.
+
+    Raises
+    ------
+    DataFileError, TaskFaults
+        The file is wrong, whatever the method.
     """
     rows: dict[str, dict[str, Any]] = {}
     for name in METHODS:
         try:
             plan = plan_file(path, name)
-        except UnsupportedArmError as refusal:
-            rows[name] = dict.fromkeys(_COMPARED, "") | {
-                "arrive": f"not for these arms ({refusal})"
-            }
+        except DualArmError as refusal:
+            if not _of_the_method(refusal):
+                raise
+            whom = "these arms" if isinstance(refusal, UnsupportedArmError) else "this task"
+            rows[name] = dict.fromkeys(_COMPARED, "") | {"arrive": f"not for {whom} ({refusal})"}
             continue
-        links = plan.links(CHECK_STEP)
-        found = (
+        found = truth(plan.scene, plan.paths)
+        values = (
             ", ".join(arm for arm, one in plan.plans.items() if one.reached) or "none",
+            told(found, plan_reached(plan)),
             max(one.steps for one in plan.plans.values()),
-            round(links.minimum, 4),
-            " - ".join(links.nearest[0]) if links.pairs else "",
+            round(found.lower, 4),
+            " - ".join(found.pair or ()),
         )
-        rows[name] = dict(zip(_COMPARED, found, strict=True))
+        rows[name] = dict(zip(_COMPARED, values, strict=True))
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
+
+
+def _of_the_method(refusal: DualArmError) -> bool:
+    """Whether another method may take what this one refused."""
+    if isinstance(refusal, DataFileError):
+        return refusal.field.startswith("settings")
+    return not isinstance(refusal, TaskFaults)
 
 
 def plan_page(plan: AnyPlan, title: str) -> Page:
@@ -80,36 +129,8 @@ def plan_page(plan: AnyPlan, title: str) -> Page:
 
 
 def plan_scene(plan: AnyPlan, title: str) -> Scene3D:
-    """The motion of all arms among boxes and spheres, with the tracks of the flanges."""
-    arms = dict(zip(plan.plans, PALETTE, strict=False))
-    reach = max(float(np.ptp(one.tcp, axis=0).max()) + 1.0 for one in plan.plans.values())
-    made = Scene3D(title, camera=(1.1 * reach, -0.9 * reach, 0.9 * reach))
-    made.contents.floor = plan.scene.floor
-    for name, shape in _solids(plan):
-        made.add_solid(name, shape, _OBSTACLE)
-    for name, color in arms.items():
-        one = plan.plans[name]
-        made.add_arm(name, one.placed.arm, one.path[0], one.placed.placement, color)
-        made.add_path(f"{name} track", one.tcp, color)
-    made.animate({n: (p.placed.arm, p.path) for n, p in plan.plans.items() if p.steps})
-    if made.contents.motion:
-        made.contents.nearest = _nearest(plan, made.contents.motion.frames)
-    return made
-
-
-def _nearest(plan: AnyPlan, frames: np.ndarray) -> Nearest:
-    """The pairs that the scene of the plan watches, so that it shows what the summary says."""
-    rows = {n: p.path[np.minimum(frames, len(p.path) - 1)] for n, p in plan.plans.items()}
-    found = clearance(plan.scene, plan.scene.stack(**rows), frames)
-    pairs = plan.scene.pairs.bodies
-    return nearest_of(found.distance, found.point_a, found.point_b, pairs)
-
-
-def _solids(plan: AnyPlan) -> list[tuple[str, Any]]:
-    """Each obstacle by its name; several shapes of one name are counted."""
-    found = []
-    for name, solid in plan.scene.obstacles.items():
-        shapes = solid if isinstance(solid, tuple | list) else (solid,)
-        names = [name] if len(shapes) == 1 else [f"{name} {k + 1}" for k in range(len(shapes))]
-        found += list(zip(names, shapes, strict=True))
-    return found
+    """The motion of all arms among all bodies of the scene, with the tracks of the flanges."""
+    ends = [mover.path.index[-1] for mover in plan.scene.moving.values()]
+    index = np.arange(1.0 + max([plan.index[-1], *np.ceil(ends)]))
+    rows = {name: path.at(index) for name, path in plan.paths.items()}
+    return drawn_scene(plan.scene, title, rows, index)

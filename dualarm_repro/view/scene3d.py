@@ -10,13 +10,13 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms import Arm
-from ..arms.capsules import segment_capsule
-from ..scene import Box, Capsule, ConvexHull, PlacedArm, Shape, Sphere
+from ..scene import Box, PlacedArm, Shape, Sphere
 from .scenes.arm_parts import arm_parts, checked_parts
 from .scenes.contents import WORLD, Contents, Mark, Motion, Part
 from .scenes.finished import finished
 from .scenes.markup import alone, figure
 from .scenes.nearest import nearest_pairs
+from .scenes.solid_parts import solid_part
 from .scenes.urdf_meshes import visual_parts
 
 
@@ -148,19 +148,8 @@ class Scene3D:
         self._add("tapered", size, color, pose=pose, opacity=0.8 if solid else 1.0, body=body)
 
     def add_solid(self, name: str, shape: Shape, color: str) -> None:
-        """Draw an obstacle; a half-space, which has no end, only counts in the distances."""
-        match shape:
-            case Box():
-                pose = np.vstack([shape.pose, [0.0, 0.0, 0.0, 1.0]])
-                self.add_box(name, shape.size, pose, color, solid=True)
-            case Sphere():
-                self.add_sphere(name, shape.center, shape.radius, color, solid=True)
-            case Capsule():
-                place, drawn = segment_capsule(shape.start, shape.end, shape.radius)
-                size = (shape.radius, shape.radius, 2.0 * drawn.halfLength)
-                self._add("tapered", size, color, pose=place.homogeneous, body=name)
-            case ConvexHull():
-                self.add_mesh(name, shape.vertices, shape.faces, color)
+        """Draw an obstacle, to which distances are shown."""
+        self.contents.parts.append(solid_part(name, shape, color))
         self._solids[name] = shape
 
     def html(self) -> str:

@@ -74,10 +74,18 @@ def write(tmp_path):
     return task_file
 
 
+def parked(path):
+    """The scene file beside a task file, with a place where its left arm is parked."""
+    cell = path.with_name("parked.yaml")
+    left = 'rpy: [0, 0, "pi/2"], start: [0, 0, 0, 0, 0, 0]}'
+    cell.write_text(SCENE.replace('rpy: [0, 0, "pi/2"]}', left, 1), encoding="utf-8")
+    return cell
+
+
 def test_positions_become_joints_and_gaps_are_filled_from_the_scene(write):
     given = load_tasks(write(TASKS))
     assert list(given.tasks) == ["left", "right"]
-    assert given.settings is None
+    assert given.settings["left"] == default_settings(given.scene.arms[0].arm)
     left = next(placed for placed in given.scene.arms if placed.name == "left")
     assert end_effector(left, given.tasks["left"].goal) == pytest.approx([0.05, 0.3, 0.55])
     assert given.tasks["right"].start == pytest.approx(np.zeros(6))
@@ -94,8 +102,10 @@ def test_a_position_alone_is_enough(write):
 
 
 def test_a_scene_file_with_start_and_goal_is_enough(write):
-    given = load_tasks(write(TASKS).with_name("cell.yaml"))
+    given = load_tasks(parked(write(TASKS)))
     assert list(given.tasks) == ["right"]
+    assert given.parked["left"] == pytest.approx(np.zeros(6))
+    assert set(given.starts) == set(given.goals) == {"left", "right"}
 
 
 @pytest.mark.parametrize("name", METHODS)
@@ -225,7 +235,7 @@ def test_both_arms_are_played_to_their_ends(write, name):
 
 
 def test_the_search_takes_one_arm_or_two(write, tmp_path):
-    alone = plan_file(write(TASKS).with_name("cell.yaml"), "apf-bidirectional")
+    alone = plan_file(parked(write(TASKS)), "apf-bidirectional")
     assert list(alone.plans) == ["right"]
     text = TASKS + "master_points: end_effector\n"
     with pytest.raises(InputError, match="master_points"):

@@ -121,7 +121,7 @@ BAD = {
     "short start": ("arms: {a: {robot: irb120, start: [0, 0]}}", r"arms\.a: shape of q = \(2,\)"),
     "infinite start": (
         "arms: {a: {robot: irb120, start: [0, 0, 0, 0, 0, .inf]}}",
-        r"arms\.a\.start\.5 = inf",
+        r"arms\.a\.start\.joints\.5 = inf",
     ),
     "lock of a DH arm": ("arms: {a: {robot: irb120, lock: {j: 0}}}", r"arms\.a: flange, lock"),
     "arm name": ("arms: {a/b: {robot: irb120}}", r"arms\.a/b"),

@@ -4,18 +4,19 @@ import pytest
 
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.planning import plan_file
+from dualarm_repro.planning.checks.truth import truth
 from dualarm_repro.planning.methods import METHODS
 from dualarm_repro.view import plan_report
 from dualarm_repro.view.plan_report import compare_methods, plan_scene
 
 
-def test_scene_and_links_agree():
+def test_scene_and_truth_agree():
     plan = plan_file(data_path("scenes", "example_tasks.yaml"), "apf-bidirectional")
     made = plan_scene(plan, "Two arms and a ball.")
-    nearest, links = made.contents.nearest, plan.links(0.01)
-    # key frames are some of the densified steps, so they can only be farther apart
-    assert links.minimum <= nearest.distance.min() + 1e-12
-    assert nearest.distance.min() == pytest.approx(links.minimum, abs=2e-3)
+    nearest, found = made.contents.nearest, truth(plan.scene, plan.paths)
+    # key frames are some of the motion, so they can only be farther apart
+    assert found.lower <= nearest.distance.min()
+    assert nearest.distance.min() == pytest.approx(found.upper, abs=2e-3)
     assert made.contents.floor == plan.scene.floor == 0.0
     assert "ball" in {part.body for part in made.contents.parts}
 

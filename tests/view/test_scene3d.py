@@ -8,7 +8,7 @@ import pinocchio as pin
 import pytest
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.scene import Box, Capsule, ConvexHull, Sphere
+from dualarm_repro.scene import Box, Capsule, ConvexHull, HalfSpace, Sphere
 from dualarm_repro.view.scene3d import Scene3D
 
 Q = np.array([0.3, -1.0, 0.5, 0.2, -0.4, 0.1])
@@ -114,6 +114,7 @@ def test_two_meshed_arms_in_long_motion_stay_small():
         Sphere([0.5, 0.0, 0.5], 0.1),
         Capsule([0.5, 0.0, 0.5], [0.5, 0.2, 0.5], 0.1),
         ConvexHull(np.vstack([np.zeros(3), 0.2 * np.eye(3)]) + 0.5),
+        HalfSpace([0.0, 0.0, 1.0], -0.2),
     ],
 )
 def test_every_obstacle_is_seen_and_measured(shape):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import spatial
 
+from ...arms import Arm
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.hull import circle_points
@@ -43,7 +44,8 @@ NO_HULL = HullTrack(np.empty((0, 0, 4)), np.empty((0, 0, 3, 3)))
 def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.ndarray:
     """Points of the circles in the world for configurations (N, nq), (N, C count, 3) [m].
 
-    The circle at the flange lies normal to the last axis.
+    The circle at the flange lies normal to the last axis. Of a planar arm all circles lie in one
+    plane; the poles c + r z and c - r z of each are added, so that the points span a volume.
     """
     arm, number = placed.arm, np.array(circles.frames)
     carrier = np.minimum(number, arm.nq)
@@ -51,8 +53,22 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
     centres = np.where(at_flange, arm.chain.translation[-1], 0.0)
     axes = np.eye(3)[[0 if circles.containing_axis else 2] * len(number)]
     local = circle_points(centres, axes, circles.radii, circles.per_circle)
-    frames = frames_of(placed, q)[:, np.repeat(carrier, circles.per_circle)]
+    carrier = np.repeat(carrier, circles.per_circle)
+    if not circles.containing_axis and _planar(arm):
+        poles = np.multiply.outer(circles.radii, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
+        local = np.vstack([local, (centres[:, np.newaxis] + poles).reshape(-1, 3)])
+        carrier = np.append(carrier, np.repeat(np.minimum(number, arm.nq), 2))
+    frames = frames_of(placed, q)[:, carrier]
     return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
+
+
+def _planar(arm: Arm) -> bool:
+    """Whether all joints turn about parallel axes and their origins and the flange lie in one
+    plane."""
+    chain = arm.chain
+    parallel = np.abs(np.abs(chain.rotation[1:-1, 2, 2]) - 1.0) < 1e-9
+    level = np.abs(chain.translation[1:, 2]) < 1e-9
+    return bool(parallel.all() and level.all())
 
 
 def hull_track(points: np.ndarray) -> HullTrack:

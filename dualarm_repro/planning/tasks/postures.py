@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arms.poses import homogeneous
 from ...errors import InputError
 from ...scene import PlacedArm, facing
+from ...scene.configuration_entry import Elbow, Tool
 from ...scene.quantities import unit3, vector3
 from ..field.control_points import end_effector
 from .tip_goal import REACHED, nearest_posture
-
-Tool = Literal["radial", "down"]
-Elbow = Literal["up", "down"]
 
 _UP, _AHEAD = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
 
@@ -59,7 +55,7 @@ def posture(
     """
     target = vector3(f"arm {placed.name}", "position", position)
     near = np.zeros(placed.arm.nq) if reference is None else placed.arm.configurations(reference)
-    axis = _direction(placed, target, tool)
+    axis = tool_direction(placed, target, tool)
     upright = facing(axis, _UP if abs(axis[2]) < 0.9 else _AHEAD)
     flange = homogeneous(upright @ placed.arm.chain.rotation[-1], target)
     pose = placed.placement.inverse().homogeneous @ flange
@@ -87,7 +83,8 @@ def _unreachable(
     return InputError(source, "tool", tool, expected)
 
 
-def _direction(placed: PlacedArm, target: np.ndarray, tool: Tool | ArrayLike) -> np.ndarray:
+def tool_direction(placed: PlacedArm, target: np.ndarray, tool: Tool | ArrayLike) -> np.ndarray:
+    """Unit vector (3,) in the world along which the last joint of an arm at ``target`` points."""
     if isinstance(tool, str):
         if tool == "down":
             return -_UP

@@ -79,11 +79,11 @@ def mixed(color: str, other: str, share: float) -> str:
 
 
 def joint_axis(arm: Arm, joint: int) -> np.ndarray:
-    """Unit axis (3,) about which a joint turns, in its own frame."""
+    """Unit axis (3,) about which a joint turns, or along which it slides, in its own frame."""
     data = arm.model.createData()
     pin.computeJointJacobians(arm.model, data, pin.neutral(arm.model))
-    twist = data.J[:, arm.model.idx_vs[joint]]
-    axis = data.oMi[joint].rotation.T @ twist[3:]
+    twist = data.J.reshape(6, arm.nq)[:, arm.model.idx_vs[joint]]  # Pinocchio drops a single axis
+    axis = data.oMi[joint].rotation.T @ (twist[3:] if twist[3:].any() else twist[:3])
     return axis / np.linalg.norm(axis)
 
 

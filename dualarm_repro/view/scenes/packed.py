@@ -57,7 +57,8 @@ def packed(contents: Contents, camera: Camera, floor: Floor | None) -> str:
             "which": [texts.index(pair) for pair in found.names],
             "contacts": [sorted(index[b] for b in c if b in index) for c in found.contacts],
         }
-    return json.dumps(made, separators=(",", ":")).replace("</", "<\\/")
+    # "<" could open a comment or a script inside the element that holds the data.
+    return json.dumps(made, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _part(

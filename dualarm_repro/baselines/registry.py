@@ -1,0 +1,103 @@
+"""Every planner by name: the documents' methods, today's baselines, and those of other packages.
+
+A package of one's own declares a planner as an entry point::
+
+    [project.entry-points."dualarm_repro.planners"]
+    my-planner = "my_package:plan"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any, cast
+
+from ..errors import InputError
+from ..planning.methods import METHODS, Method
+from ..planning.path_plan import as_method
+from ..planning.planner import GROUP, PathPlanner
+from ..planning.settings import APFSettings
+from . import barrier, mutual_avoidance, sampling, shooting
+
+#: Baselines by name. None imports the library behind it before it plans.
+BASELINES: dict[str, PathPlanner] = {
+    "mutual-avoidance-qp": mutual_avoidance.mutual_avoidance,
+    "cbf-qp": barrier.barrier,
+    "rrt-connect": sampling.rrt_connect,
+    "rrt-connect-simplified": sampling.rrt_connect_simplified,
+    "rrt-connect-in-turn": sampling.rrt_connect_in_turn,
+    "bit-star": sampling.bit_star,
+    "trajectory-optimisation": shooting.shooting,
+}
+WHOLE_LINKS = "apf-whole-links"
+
+
+def enlist() -> dict[str, Method[Any]]:
+    """Make every planner known to `plan_file`, and give the list by name.
+
+    A package that cannot be loaded stays on the list, and says why when it is asked to plan. It
+    cannot take the name of a method that is known already.
+    """
+    known = cast("dict[str, Method[Any]]", METHODS)
+    for name, made in {**_baselines(), **found()}.items():
+        known.setdefault(name, made)
+    return known
+
+
+def found() -> dict[str, Method[Any]]:
+    """The planners of other packages that are installed, by the name of their entry point."""
+    return {
+        one.name: as_method(one.name, _described(one), partial(_loaded, one))
+        for one in sorted(entry_points(group=GROUP), key=lambda one: one.name)
+    }
+
+
+def _baselines() -> dict[str, Method[Any]]:
+    made = {
+        name: as_method(name, first_line(planner), partial(_itself, planner))
+        for name, planner in BASELINES.items()
+    }
+    improved = METHODS["apf-improved"]
+    made[WHOLE_LINKS] = Method(
+        WHOLE_LINKS,
+        "the improved field with repulsion of the capsules of all links",
+        _of_whole_links,
+        APFSettings,
+        cast("Method[APFSettings]", improved).default,
+        cast("Method[APFSettings]", improved).plan,
+    )
+    return made
+
+
+def first_line(planner: Callable[..., Any]) -> str:
+    """What a planner says of itself: the first line of its docstring."""
+    lines = (planner.__doc__ or "").strip().splitlines()
+    return lines[0].strip().rstrip(".") if lines else "says nothing of itself"
+
+
+def _of_whole_links(settings: APFSettings) -> APFSettings:
+    return settings.changed(control_points="capsules", weights=None)
+
+
+def _itself(planner: PathPlanner) -> PathPlanner:
+    return planner
+
+
+def _described(one: EntryPoint) -> str:
+    try:
+        return first_line(_loaded(one))
+    except InputError as error:
+        return f"cannot be loaded: {error.value}"
+
+
+def _loaded(one: EntryPoint) -> PathPlanner:
+    try:
+        planner = one.load()
+    except Exception as error:  # whatever the package of somebody else raises
+        reason = " ".join(f"{type(error).__name__}: {error}".split())
+        raise InputError(f"entry point {one.name}", one.value, reason, "a planner") from error
+    if not callable(planner):
+        expected = "a function from a PathProblem to a FoundPath"
+        raise InputError(f"entry point {one.name}", one.value, type(planner).__name__, expected)
+    return cast("PathPlanner", planner)

@@ -1,0 +1,83 @@
+"""`time`: a path of all arms within limits of speed and acceleration, as files for a robot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import NOT_USABLE, output, progress
+from .arguments import AsJson, Out
+from .examples import examples
+from .scenes import SceneFile, print_links
+
+
+@examples(
+    "dualarm time tasks.yaml out/tasks_left.csv out/tasks_right.csv --speed 0.5",
+    "dualarm time cell.yaml path.csv --acceleration 3 --out results --json",
+)
+def time(
+    scene: SceneFile,
+    paths: Annotated[
+        list[Path], typer.Argument(metavar="PATH.csv", help="as `dualarm check` takes them")
+    ],
+    speed: Annotated[
+        float, typer.Option(help="share of the speed limits of the joints that may be used")
+    ] = 1.0,
+    acceleration: Annotated[
+        float, typer.Option(help="largest acceleration of any joint [rad/s^2]")
+    ] = 5.0,
+    rate: Annotated[float, typer.Option(help="samples a second")] = 100.0,
+    out: Out = Path("out"),
+    as_json: AsJson = False,
+) -> None:
+    """Time a path within limits of speed and acceleration, and write it for a robot.
+
+    Writes STEM_timed.csv (time, joints, tips), .json, .yaml (as a ROS JointTrajectory) and the 3-D
+    page .html. The timed motion is certified anew; exit code 3: it is not free of contact.
+    """
+    with progress.waiting(f"timing {scene.name}"):
+        from ..ledger.files import write_text
+        from ..planning.checks.truth import truth
+        from ..planning.timing import export
+        from ..planning.timing.timed_motion import timed
+        from ..view.check_report import checked_paths, loaded
+        from ..view.plan_report import judged
+        from ..view.timed_scene import timed_scene
+
+        given = loaded(scene)
+        motion = timed(
+            given.scene,
+            checked_paths(given, paths),
+            speed=speed,
+            acceleration=acceleration,
+            rate=rate,
+        )
+        found = truth(given.scene, motion.paths)
+        free = found.collision_free and found.within_limits
+        stem, mark = f"{scene.stem}_timed", "" if free else f"# DO NOT RUN: {found.verdict}\n"
+        texts = {
+            out / f"{stem}.csv": mark + export.to_csv(motion),
+            out / f"{stem}.json": export.to_json(motion),
+            out / f"{stem}.yaml": mark + export.to_joint_trajectory(motion),
+            out / f"{stem}.html": timed_scene(motion, stem).html(),
+        }
+        files = [write_text(path, text) for path, text in texts.items()]
+        summary = {
+            "scene": scene.name,
+            "duration_s": motion.duration,
+            "samples": len(motion.time),
+            "deviation_rad": motion.deviation,
+            "usable": free,
+            **judged(found),
+        }
+    if as_json:
+        output.print_json({**summary, "files": [str(path) for path in files]})
+    else:
+        print(f"duration: {motion.duration:.3f} s, {len(motion.time)} samples")
+        print(f"largest distance from the path given: {motion.deviation:.2g} rad")
+        print_links(summary)
+        output.print_written(files)
+    if not free:
+        raise typer.Exit(NOT_USABLE)

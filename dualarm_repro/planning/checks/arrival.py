@@ -1,0 +1,27 @@
+"""Whether a motion, whoever planned it, ends where a task wants it to end."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...scene import PlacedArm
+from ..field.control_points import end_effector
+from ..tasks.numeric_ik import PoseGoal, pose_errors
+from ..tasks.task_file import ReadTask
+
+#: Tolerances: joints and orientation [rad], position [m].
+ANGLE, POSITION = 1e-2, 1e-3
+
+
+def arrives(placed: PlacedArm, task: ReadTask, q: np.ndarray) -> bool:
+    """Whether q (nq,) meets the goal: its joints, or the position or pose that is asked for."""
+    if np.abs(q - task.goal).max() <= ANGLE:
+        return True
+    if task.posture is None or task.posture.tool is not None:
+        return False
+    position, rotation = np.array(task.posture.position), task.posture.rotation
+    if rotation is None:
+        return bool(np.linalg.norm(end_effector(placed, q) - position) <= POSITION)
+    free = None if task.posture.free is None else "xyz".index(task.posture.free)
+    missed, turned = pose_errors(placed, PoseGoal(position, rotation, free), q)
+    return missed <= POSITION and turned <= ANGLE

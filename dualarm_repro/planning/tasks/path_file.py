@@ -1,0 +1,102 @@
+"""Paths of arms from CSV files, one's own or somebody else's: a row a sample, linear in between.
+
+A column ``step``, ``index`` or ``time`` is the common index (without one: the number of the row).
+The joints of an arm are ``ARM.q1``, ``ARM.q2`` ...; in the file of one arm plain ``q1`` ..., the
+arm being that of the name of the file, ``ARM.csv`` or ``NAME_ARM.csv``. Other columns are left
+alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from ...errors import DataFileError, InputError
+from ...scene import JointPath, PlacedArm, Scene
+
+_INDEX = ("step", "index", "time")
+#: Largest file [bytes].
+LARGEST_FILE = 200_000_000
+
+
+def read_paths(scene: Scene, files: Iterable[str | Path]) -> dict[str, JointPath]:
+    """Paths of some arms of a scene.
+
+    Raises
+    ------
+    DataFileError
+        A file that is missing, no table of finite numbers, or has not all joints of an arm; an arm
+        that two files name.
+    """
+    found: dict[str, JointPath] = {}
+    for name in files:
+        for arm, path in _read(scene, Path(name)).items():
+            if arm in found:
+                raise DataFileError(name, arm, "a second path", "one path of each arm")
+            found[arm] = path
+    return found
+
+
+def _read(scene: Scene, file: Path) -> dict[str, JointPath]:
+    table = _table(file)
+    index = next((table[name].to_numpy() for name in _INDEX if name in table), None)
+    found = {}
+    for placed in scene.arms:
+        named = [f"{placed.name}.q{k + 1}" for k in range(placed.arm.nq)]
+        if not any(name in table for name in named):
+            if not _is_of(scene, placed, file):
+                continue
+            named = [f"q{k + 1}" for k in range(placed.arm.nq)]
+        joints = np.column_stack([_numbers(file, table, name) for name in named])
+        extra = f"{named[-1].rpartition('q')[0]}q{placed.arm.nq + 1}"
+        if extra in table:
+            expected = f"{placed.arm.nq} joints of {placed.name}"
+            raise DataFileError(file, "column", extra, expected)
+        try:
+            found[placed.name] = JointPath(joints, index)
+        except InputError as error:
+            raise DataFileError(file, error.field, error.value, error.expected) from None
+    if not found:
+        arms = ", ".join(scene.columns)
+        expected = f"columns ARM.q1 ... of one of {arms}, or q1 ... in a file named NAME_ARM.csv"
+        raise DataFileError(file, "columns", list(table.columns), expected)
+    return found
+
+
+def _is_of(scene: Scene, placed: PlacedArm, file: Path) -> bool:
+    """Whether a file with plain joint columns is that of an arm."""
+    named = [one.name for one in scene.arms if f"_{file.stem}".endswith(f"_{one.name}")]
+    if named:
+        return placed.name == max(named, key=len)
+    return len(scene.arms) == 1
+
+
+def _table(file: Path) -> pd.DataFrame:
+    try:
+        if file.stat().st_size > LARGEST_FILE:
+            expected = f"at most {LARGEST_FILE / 1e6:g} MB"
+            raise DataFileError(file, "size", f"{file.stat().st_size / 1e6:.0f} MB", expected)
+        table = pd.read_csv(file, comment="#", skipinitialspace=True)
+    except OSError as error:
+        raise DataFileError(file, "file", error.strerror, "a readable CSV file") from None
+    except (ValueError, pd.errors.ParserError) as error:
+        raise DataFileError(file, "content", str(error), "a CSV table with a header") from None
+    if not len(table):
+        raise DataFileError(file, "rows", 0, "at least one row")
+    for name in _INDEX:
+        if name in table:
+            _numbers(file, table, name)
+    return table
+
+
+def _numbers(file: Path, table: pd.DataFrame, name: str) -> np.ndarray:
+    if name not in table:
+        raise DataFileError(file, "column", name, f"a column of that name beside {list(table)}")
+    values = pd.to_numeric(table[name], errors="coerce").to_numpy(dtype=float)
+    bad = np.flatnonzero(~np.isfinite(values))
+    if bad.size:
+        raise DataFileError(file, f"{name}, row {bad[0] + 1}", table[name].iloc[bad[0]], "a number")
+    return values

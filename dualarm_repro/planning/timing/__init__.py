@@ -1,0 +1,1 @@
+"""Paths become motions: time within limits of speed and acceleration, and files of them."""

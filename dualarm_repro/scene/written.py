@@ -1,0 +1,86 @@
+"""Scene and task files read so that no file can overwhelm the reader: size, nesting and the number
+of values, with aliases written out, are bounded before anything is made of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..datafiles import read_yaml
+from ..errors import DataFileError
+
+#: Largest file [bytes], about ten thousand obstacles.
+LARGEST_FILE = 1_000_000
+#: Most values of a file, an alias counted as often as it is used.
+MOST_VALUES = 500_000
+#: Deepest nesting of lists and mappings.
+DEEPEST = 50
+
+
+def read_written(path: Path) -> dict[str, Any]:
+    """Content of a YAML file that somebody else may have written.
+
+    Raises
+    ------
+    DataFileError
+        Missing, too large, nested too deep, aliases that multiply or contain themselves, not YAML.
+    """
+    path = Path(path)
+    try:
+        size = path.stat().st_size
+        if path.is_dir():
+            raise DataFileError(path, "file", "a folder", "a readable YAML file")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "no such name"
+        raise DataFileError(path, "file", reason, "a readable YAML file") from None
+    if size > LARGEST_FILE:
+        expected = f"at most {LARGEST_FILE / 1e6:g} MB, about ten thousand obstacles"
+        raise DataFileError(path, "size", f"{size / 1e6:.1f} MB", expected)
+    _refuse_deep(path)
+    try:
+        content = read_yaml(path)
+    except RecursionError:
+        raise _too_deep(path) from None
+    except (ValueError, OverflowError) as error:  # of a number, a date or a byte that is none
+        raise DataFileError(path, "content", str(error), "well-formed YAML") from None
+    _count(path, content, {}, 0)
+    return content
+
+
+def _too_deep(path: Path) -> DataFileError:
+    expected = f"at most {DEEPEST} lists or mappings inside each other"
+    return DataFileError(path, "nesting", "deeper", expected)
+
+
+def _refuse_deep(path: Path) -> None:
+    """Brackets and indents deeper than any scene; the parser follows them by recursion."""
+    depth = 0
+    for line in path.read_bytes().splitlines():
+        indent = len(line) - len(line.lstrip(b" -"))
+        for byte in line if b"[" in line or b"{" in line or depth else b"":
+            depth += (byte in b"[{") - (byte in b"]}")
+            if depth > DEEPEST:
+                raise _too_deep(path)
+        depth = max(depth, 0)
+        if indent > 20 * DEEPEST:
+            raise _too_deep(path)
+
+
+def _count(path: Path, value: Any, known: dict[int, int | None], depth: int) -> int:
+    """Number of values below one; None in ``known`` marks those that are being counted."""
+    if not isinstance(value, dict | list):
+        return 1
+    if depth > DEEPEST:
+        raise _too_deep(path)
+    counted = known.get(id(value), 0)
+    if counted is None:
+        raise DataFileError(path, "alias", "one that contains itself", "values that end")
+    if counted:
+        return counted
+    known[id(value)] = None
+    parts = value.values() if isinstance(value, dict) else value
+    total = 1 + sum(_count(path, part, known, depth + 1) for part in parts)
+    if total > MOST_VALUES:
+        raise DataFileError(path, "aliases", f"{total} values", f"at most {MOST_VALUES} values")
+    known[id(value)] = total
+    return total

@@ -1,0 +1,119 @@
+"""Every baseline on tasks whose answer is known, judged by all bodies."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from crossing_pair import BLOCKED, FREE, written
+
+from dualarm_repro.baselines import BASELINES
+from dualarm_repro.errors import DualArmError, InputError
+from dualarm_repro.planning import FoundPath, PathProblem, PlannerSettings, truth
+from dualarm_repro.planning.path_plan import run_planner
+from dualarm_repro.planning.tasks.task_file import load_tasks
+from dualarm_repro.scene import MovingShape, PosePath, Sphere, distances
+from dualarm_repro.settings import Settings
+
+PACKAGES = {
+    "cbf-qp": "pink",
+    "trajectory-optimisation": "crocoddyl",
+    "rrt-connect": "ompl",
+    "rrt-connect-simplified": "ompl",
+    "rrt-connect-in-turn": "ompl",
+    "bit-star": "ompl",
+}
+
+
+def problem_of(folder, text, **settings):
+    given = load_tasks(written(folder, text), Settings)
+    ends = (given.scene.stack(**given.starts), given.scene.stack(**given.goals))
+    return PathProblem(given.scene, *ends, PlannerSettings(**settings))
+
+
+def judged(name, problem):
+    if name in PACKAGES:
+        pytest.importorskip(PACKAGES[name])
+    plan = run_planner(name, BASELINES[name], problem)
+    return plan, truth(problem.scene, plan.paths)
+
+
+@pytest.mark.parametrize("name", BASELINES)
+def test_baseline_does_a_task_that_is_free(name, tmp_path):
+    """It begins at the start, ends at the goal, is certified free and counts what it asks."""
+    problem = problem_of(tmp_path, FREE, evaluations=4000)
+    plan, found = judged(name, problem)
+    assert all(one.reached for one in plan.plans.values())
+    assert found.collision_free
+    assert found.within_limits
+    path = np.hstack([one.path for one in plan.plans.values()])
+    np.testing.assert_allclose(path[0], problem.start, atol=1e-12)
+    np.testing.assert_allclose(path[-1], problem.goal, atol=1e-3)
+    assert 0 < problem.evaluations <= 6000  # a sweep that has begun is finished
+
+
+@pytest.mark.parametrize("name", ["rrt-connect", "rrt-connect-simplified", "cbf-qp"])
+def test_same_seed_same_path(name, tmp_path):
+    """Also after other runs in the same process."""
+    first, _ = judged(name, problem_of(tmp_path, BLOCKED, seed=3, evaluations=4000))
+    judged(name, problem_of(tmp_path, FREE, seed=5, evaluations=500))
+    again, _ = judged(name, problem_of(tmp_path, BLOCKED, seed=3, evaluations=4000))
+    for arm, one in first.plans.items():
+        np.testing.assert_array_equal(one.path, again.plans[arm].path)
+
+
+@pytest.mark.parametrize("name", BASELINES)
+def test_claim_and_truth_agree_or_the_truth_says_no(name, tmp_path):
+    """The straight line of both collides; whoever arrives is judged by all bodies."""
+    problem = problem_of(tmp_path, BLOCKED, evaluations=4000)
+    plan, found = judged(name, problem)
+    if name in ("rrt-connect", "rrt-connect-simplified"):
+        assert all(one.reached for one in plan.plans.values())
+    if name in ("mutual-avoidance-qp", "cbf-qp"):  # they yield rather than touch
+        assert found.collision_free
+    if not all(one.reached for one in plan.plans.values()):
+        assert plan.master.reason != "reached"
+
+
+def test_simplified_path_is_shorter(tmp_path):
+    long, short = (
+        judged(name, problem_of(tmp_path, BLOCKED, seed=1, evaluations=8000))[0]
+        for name in ("rrt-connect", "rrt-connect-simplified")
+    )
+    length = [sum(one.length for one in plan.plans.values()) for plan in (long, short)]
+    assert length[1] < length[0]
+
+
+@pytest.mark.parametrize("name", sorted(PACKAGES))
+def test_obstacle_that_moves_by_itself_is_refused_by_name(name, tmp_path):
+    pytest.importorskip(PACKAGES[name])
+    problem = problem_of(tmp_path, FREE)
+    track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
+    ball = MovingShape(Sphere([0.0, 0.0, 2.0], 0.1), track)
+    scene = problem.scene
+    problem.scene = type(scene)(scene.arms, moving={"ball": ball})
+    with pytest.raises(InputError, match="ball"):
+        run_planner(name, BASELINES[name], problem)
+
+
+@pytest.mark.parametrize(
+    ("answer", "told"),
+    [
+        (lambda problem: 1 / 0, "ZeroDivisionError"),
+        (lambda problem: None, "NoneType"),
+        (lambda problem: FoundPath(problem.start, "reached"), "path"),
+        (lambda problem: FoundPath(problem.goal[None], "reached"), "begin at the start"),
+        (lambda problem: FoundPath(problem.start[None] * np.nan, "reached"), "finite"),
+    ],
+)
+def test_planner_of_somebody_else_cannot_hurt(answer, told, tmp_path):
+    """Whatever it raises or answers becomes one line of the library."""
+    with pytest.raises(DualArmError, match=told) as caught:
+        run_planner("theirs", answer, problem_of(tmp_path, FREE))
+    assert "\n" not in str(caught.value)
+
+
+def test_margin_is_half_of_what_the_ends_have(tmp_path):
+    problem = problem_of(tmp_path, FREE, margin=0.005)
+    assert problem.margin == 0.005
+    wide = problem_of(tmp_path, FREE, margin=10.0)
+    least = distances(wide.scene, np.array([wide.start, wide.goal])).min()
+    assert wide.margin == pytest.approx(0.5 * least)
