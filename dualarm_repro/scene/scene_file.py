@@ -15,6 +15,7 @@ from pydantic import BeforeValidator, Field, StringConstraints
 
 from ..arms import load_arm
 from ..arms.angle import EXPECTED, Angle
+from ..arms.shapes import Shapes
 from ..datafiles import StrictModel, read_yaml
 from ..errors import DataFileError, InputError
 from .bodies import PlacedArm
@@ -126,7 +127,15 @@ class ArmEntry(StrictModel):
     rpy: Rpy = _UPRIGHT
     flange: str | None = Field(default=None, description="only for a URDF: frame used as flange")
     lock: dict[str, Radians] | None = Field(
-        default=None, description="only for a URDF: joint: angle it is fixed at"
+        default=None,
+        description="only for a URDF: joint: angle, of a prismatic one length [m], it is fixed at",
+    )
+    shapes: Shapes | None = Field(
+        default=None, description="only for a URDF: fitted (default), enclosing, visual or none"
+    )
+    packages: list[str] = Field(
+        default=[],
+        description="only for a URDF: folders, from the scene file, that hold its packages",
     )
     start: list[Radians] | None = Field(default=None, description="joint vector a plan starts from")
     goal: list[Radians] | None = Field(default=None, description="joint vector a plan ends at")
@@ -187,7 +196,9 @@ def _placed(path: Path, name: str, entry: ArmEntry) -> PlacedArm:
     beside = path.parent / entry.robot
     robot = beside if beside.is_file() else entry.robot
     try:
-        arm = load_arm(robot, flange=entry.flange, lock=entry.lock)
+        folders = [path.parent / folder for folder in entry.packages]
+        options = {"flange": entry.flange, "lock": entry.lock, "shapes": entry.shapes}
+        arm = load_arm(robot, **options, packages=folders)  # type: ignore[arg-type]
         return PlacedArm(name, arm, placement, entry.start, entry.goal)
     except DataFileError:
         raise
