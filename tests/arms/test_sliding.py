@@ -13,7 +13,8 @@ from dualarm_repro.scene.certificate import certified_minimum
 
 from .urdf.texts import joint, link, write
 
-RANGE = "<limit lower='-0.3' upper='0.4' velocity='1'/>"
+LIFT = "<limit lower='0' upper='0.4' effort='1' velocity='1'/>"
+RANGE = "<limit lower='-0.3' upper='0.4' effort='1' velocity='1'/>"
 
 
 @pytest.fixture
@@ -57,7 +58,7 @@ def test_distances_and_their_gradient(arm, rng):
 
 def test_a_lift_stands_where_it_says(tmp_path):
     """A ball 1 m above a rod that is lifted by 0.25 m: 1 - 0.25 - 0.3 - 0.1 - 0.05 by hand."""
-    text = joint("up", "b", "l1", "prismatic", limit="<limit lower='0' upper='0.4' velocity='1'/>")
+    text = joint("up", "b", "l1", "prismatic", limit=LIFT)
     rod = link("l1", "<capsule radius='0.05' length='0.3'/>")
     path = write(tmp_path, link("b", None), rod, text.replace("rpy='0.1 0.2 0.3'", "rpy='0 0 0'"))
     scene = Scene([PlacedArm("a", load_arm(path))], {"ball": Sphere((0, 0, 1.3), 0.1)})

@@ -86,6 +86,8 @@ def around(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
 
 def main_axes(points: np.ndarray) -> np.ndarray:
     """Directions of least, middle and largest spread of points (3, 3), as rows."""
+    if len(points) < 2:
+        return np.eye(3)
     return np.ascontiguousarray(np.linalg.eigh(np.cov(points.T))[1].T)
 
 

@@ -9,24 +9,24 @@ from xml.etree.ElementTree import Element
 from .document import children
 from .joints import Joints
 
-_GRIPPER = re.compile(
-    r"grip|finger|thumb|jaw|knuckle|claw|hand|palm|pinky|moving_tip|parallel", re.IGNORECASE
-)
+_FINGER = re.compile(r"finger|thumb|jaw|knuckle|claw", re.IGNORECASE)
+_GRIPPER = re.compile(rf"grip|hand|palm|{_FINGER.pattern}", re.IGNORECASE)
 _LONGEST_FINGER = 4  # moving joints of a finger
 
 
 def default_flange(root: Element, joints: Joints) -> str:
     """The last link of the chain with the most joints, without the joints and links of a gripper.
 
-    A joint belongs to a gripper if it or the link it carries is named like a part of one, follows
-    another joint, or is on one of several short branches (up to four joints) that start at the end
-    of a longer chain. Links that only grippers carry are left out as well, unless nothing remains.
+    A joint belongs to a gripper if it is named like a part of one or carries a finger by name,
+    follows another joint, or is on one of several short branches (up to four joints) that start at
+    the end of a longer chain. Links that only grippers carry are left out as well, unless nothing
+    remains.
     """
     tree = _Tree(root, joints)
     gripper = {
         name
         for name in tree.moving
-        if name in joints.gears or _GRIPPER.search(name) or _GRIPPER.search(tree.child[name])
+        if name in joints.gears or _GRIPPER.search(name) or _FINGER.search(tree.child[name])
     }
     gripper |= tree.fingers(gripper)
     if not set(tree.moving) - gripper:

@@ -17,7 +17,8 @@ def box(*size):
 
 def elbow():
     """Two bars at a right angle."""
-    return np.vstack([box(0.8, 0.1, 0.1) + (0.4, 0, 0), box(0.1, 0.1, 0.6) + (0, 0, 0.3)])
+    across, up = np.array([0.4, 0, 0]), np.array([0, 0, 0.3])
+    return np.vstack([box(0.8, 0.1, 0.1) + across, box(0.1, 0.1, 0.6) + up])
 
 
 def share_inside(capsules, probes):
@@ -74,7 +75,8 @@ def test_a_ball_of_points_is_a_small_capsule(rng):
     points = rng.normal(size=(500, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
     start, end, radius = around(points)
-    assert radius < 1.1 and np.linalg.norm(end - start) < 0.2
+    assert radius < 1.1
+    assert np.linalg.norm(end - start) < 0.2
     assert to_segment(points, start, end).max() <= radius
 
 

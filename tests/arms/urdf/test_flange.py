@@ -24,7 +24,7 @@ from .texts import joint, link, write
         ("ur_description/urdf/ur5_gripper.urdf", 6, None),
         ("xarm_description/urdf/xarm7.urdf", 7, "link_eef"),
         ("tiago_description/robots/tiago.urdf", 8, None),
-        ("talos_data/robots/talos_left_arm.urdf", 7, None),
+        ("talos_data/robots/talos_left_arm.urdf", 6, None),
     ],
 )
 def test_public_arms(file, joints, flange):

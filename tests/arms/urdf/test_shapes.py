@@ -47,7 +47,7 @@ def test_what_is_no_shape_is_refused_with_its_link(shape, tmp_path):
 
 
 def test_an_origin_that_is_no_place_is_refused(tmp_path):
-    with pytest.raises(DataFileError, match="collision 0 of link l1: xyz = '0 0': .*three finite"):
+    with pytest.raises(DataFileError, match=r"collision 0 of link l1: xyz = '0 0': .*three finite"):
         load_arm(one_link(tmp_path, ROD, origin="<origin xyz='0 0'/>"))
 
 
@@ -87,7 +87,7 @@ def test_visual_shapes_are_taken_only_when_asked_for(tmp_path):
 
 def test_a_table_without_capsules_is_no_body_unless_asked_for(two_links):
     arm = load_arm(two_links())
-    with pytest.raises(UnsupportedArmError, match='no capsules.*shapes="none"'):
+    with pytest.raises(UnsupportedArmError, match=r'no capsules.*shapes="none"'):
         _ = arm.geometry
     assert load_arm(two_links(), shapes="none").geometry.ngeoms == 0
 
