@@ -44,7 +44,7 @@ def read_joints(path: Path, root: Element) -> Joints:
     Raises
     ------
     DataFileError
-        A type that URDF does not have, or a gear (``mimic``) that is not finite or goes nowhere.
+        A type that URDF does not have, or a gear (``mimic``) that is not finite.
     """
     found = Joints({}, {}, {})
     joints = children(root, "joint")
@@ -60,7 +60,7 @@ def read_joints(path: Path, root: Element) -> Joints:
         if kind == JointType.CONTINUOUS:
             _endless(joint)
         if (mimic := joint.find("mimic")) is not None:
-            found.gears[name] = _gear(path, name, mimic, joints)
+            found.gears[name] = _gear(path, name, mimic)
             joint.remove(mimic)
     return found
 
@@ -74,11 +74,7 @@ def _endless(joint: Element) -> None:
     limit.set("upper", repr(2 * math.pi))
 
 
-def _gear(path: Path, name: str, mimic: Element, joints: Mapping[str, Element]) -> Gear:
-    master = mimic.get("joint", "nothing")
-    if master not in joints or master == name:
-        expected = "the name of another joint"
-        raise DataFileError(path, f"mimic of joint {name}", master, expected)
+def _gear(path: Path, name: str, mimic: Element) -> Gear:
     factors = []
     for attribute, default in (("multiplier", "1"), ("offset", "0")):
         mimic.attrib.setdefault(attribute, default)
@@ -87,7 +83,7 @@ def _gear(path: Path, name: str, mimic: Element, joints: Mapping[str, Element]) 
             field = f"mimic of joint {name}: {attribute}"
             raise DataFileError(path, field, mimic.get(attribute), "a finite number")
         factors += value
-    return Gear(master, *factors)
+    return Gear(mimic.get("joint", "nothing"), *factors)
 
 
 def locked_values(
@@ -153,7 +149,8 @@ def geared(
     Raises
     ------
     DataFileError
-        A joint follows one that moves, so that it cannot stand still, or moves but follows another.
+        A joint follows one that moves, so that it cannot stand still, or none that there is; or it
+        moves but follows another.
     """
     remedy = "a joint without gear: choose another flange=, or lock="
     for name in sorted(free & joints.gears.keys()):
@@ -163,11 +160,10 @@ def geared(
         if name in values or name not in joints.gears:
             return values.get(name, 0.0)
         gear = joints.gears[name]
-        if gear.master in free:
-            expected = f"a joint that stands still: lock={{{name!r}: ...}} or {gear.master!r}"
+        if gear.master in free or gear.master not in joints.types or name in seen:
+            wanted = "a joint that stands still" if gear.master in free else "another joint"
+            expected = f"{wanted}, or lock={{{name!r}: ...}}, which fixes the joint"
             raise DataFileError(path, f"mimic of joint {name}", gear.master, expected)
-        if name in seen:
-            raise DataFileError(path, f"mimic of joint {name}", gear.master, "no circle")
         return gear.multiplier * value(gear.master, (*seen, name)) + gear.offset
 
     return {name: value(name) for name in joints.types if name not in free}
