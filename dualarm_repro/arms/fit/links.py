@@ -85,7 +85,8 @@ class FittedLinks:
 
 
 def fitted(solids: pin.GeometryModel, finer: Collection[str] = ()) -> list[LinkCapsule]:
-    """Capsules around every shape; a ball and a capsule stay as they are.
+    """Capsules around every shape; a ball and a capsule stay as they are, and a long cylinder keeps
+    its radius and its axis.
 
     Parameters
     ----------
@@ -102,7 +103,7 @@ def fitted(solids: pin.GeometryModel, finer: Collection[str] = ()) -> list[LinkC
         solid = shape.geometry
         if isinstance(solid, coal.Sphere):
             cores = [(np.zeros(3), np.zeros(3), solid.radius)]
-        elif isinstance(solid, coal.Capsule):
+        elif isinstance(solid, coal.Capsule) or _is_rod(solid):
             half = np.array([0.0, 0.0, solid.halfLength])
             cores = [(-half, half, solid.radius)]
         else:
@@ -113,6 +114,11 @@ def fitted(solids: pin.GeometryModel, finer: Collection[str] = ()) -> list[LinkC
             ends = shape.placement.act(start), shape.placement.act(end)
             found.append(LinkCapsule(name, shape.parentJoint, *ends, radius))
     return not_contained(found)
+
+
+def _is_rod(solid: coal.CollisionGeometry) -> bool:
+    """Whether the ends of a capsule around a cylinder add at most a quarter to its volume."""
+    return isinstance(solid, coal.Cylinder) and 4.0 / 3.0 * solid.radius <= 0.5 * solid.halfLength
 
 
 def _read(path: Path) -> dict[str, Any] | None:
