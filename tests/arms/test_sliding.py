@@ -42,7 +42,7 @@ def test_kernels_against_pinocchio(arm, rng):
         assert_allclose(origin[-1], arm.fk(row)[:3, 3], atol=1e-14)
         assert_allclose(arm.manipulability(row), arm.manipulability(row[None])[0], rtol=1e-9)
     by_differences = central_differences(lambda row: arm.positions(row), q[0], 1e-6)
-    assert_allclose(by_differences.reshape(3, 7), J[0, :3], atol=1e-8)
+    assert_allclose(by_differences.T, J[0, :3], atol=1e-8)
 
 
 def test_distances_and_their_gradient(arm, rng):
@@ -52,7 +52,7 @@ def test_distances_and_their_gradient(arm, rng):
     found, gradient = clearance_gradient(scene, q)
     for row, slope in zip(q, gradient, strict=True):
         numeric = central_differences(lambda x: distances(scene, x), row, 1e-6)
-        assert_allclose(slope, numeric.reshape(slope.shape), atol=1e-6)
+        assert_allclose(slope, numeric.T, atol=1e-6)
     assert_allclose(found.distance, [distances(scene, row) for row in q])
 
 
@@ -72,7 +72,7 @@ def test_the_certificate_holds_between_samples(arm, rng):
         found = certified_minimum(scene, path, tolerance=5e-3)
         share = np.linspace(0, 1, 2001)[:, None]
         dense = distances(scene, path[0] + share * (path[1] - path[0])).min()
-        assert found.lower <= dense <= found.upper + 1e-9
+        assert found.lower <= dense <= found.upper + 1e-5
         assert found.upper - found.lower <= 5e-3 + 1e-12
 
 

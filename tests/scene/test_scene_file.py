@@ -105,7 +105,7 @@ def test_robot_file_beside_the_scene_file(tmp_path):
 
 
 def test_shapes_and_packages_of_an_arm(tmp_path):
-    """A rod of radius 0.05 m through the origin and a ball 1 m away; without shapes none is near."""
+    """The lower end of a rod is 1 m above a floor; without shapes no distance is left."""
     robot, mesh = (tmp_path / "cell" / "stick.urdf"), tmp_path / "parts" / "own" / "rod.obj"
     for path in (robot, mesh):
         path.parent.mkdir(parents=True)
@@ -117,10 +117,10 @@ def test_shapes_and_packages_of_an_arm(tmp_path):
     )
     mesh.write_text("v 0 0 -1\nv 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n")
     arm = "arms: {{a: {{robot: cell/stick.urdf, {}}}}}\nfloor: -2"
-    with pytest.raises(DataFileError, match="own/rod.obj'.*packages="):
+    with pytest.raises(DataFileError, match=r"own/rod\.obj'.*packages="):
         load_scene(write(tmp_path, arm.format("start: [7]")))
     scene = load_scene(write(tmp_path, arm.format("packages: [parts], start: [7]")))
-    assert 0.9 < distances(scene, [7.0]).min() < 1.0
+    assert 0.9 < distances(scene, [6.0 * np.pi]).min() < 1.0
     bare = load_scene(write(tmp_path, arm.format("shapes: none")))
     assert distances(bare, np.zeros((3, 1))).shape == (3, 0)
     assert bare.pairs.bodies == ()

@@ -134,6 +134,8 @@ def with_capsules(geometry: pin.GeometryModel, names: set[str]) -> pin.GeometryM
     for shape in geometry.geometryObjects:
         if shape.name in names:
             solid = coal.Capsule(shape.geometry.radius, 2.0 * shape.geometry.halfLength)
-            shape = pin.GeometryObject(shape.name, shape.parentJoint, shape.placement, solid)
+            # Without its frame Pinocchio cannot reduce the model.
+            place = shape.parentJoint, shape.parentFrame, shape.placement
+            shape = pin.GeometryObject(shape.name, *place, solid)
         made.addGeometryObject(shape)
     return made
