@@ -67,6 +67,8 @@ def load_arm(
         The file is no serial chain.
     """
     names = arm_names()
+    if "\0" in str(name_or_path):
+        raise InputError("load_arm", "name", str(name_or_path), "a name or a path")
     if str(name_or_path) in names:
         path, name = data_path("robots", f"{name_or_path}.yaml"), str(name_or_path)
     else:
@@ -76,7 +78,9 @@ def load_arm(
             expected = f"one of {', '.join(names)}, or the path of a URDF or YAML file"
             raise UnknownNameError("load_arm", "name", str(name_or_path), expected)
     kind = None if shapes is None else choice(Shapes, "load_arm", "shapes", shapes)
-    folders = tuple(map(Path, [packages] if isinstance(packages, str | Path) else packages))
+    if not isinstance(lock, Mapping | None):
+        raise InputError("load_arm", "lock", lock, "a mapping of joint name to angle or length")
+    folders = _folders(packages)
     if path.suffix not in (".yaml", ".yml"):
         urdf = URDF(path, flange, lock, kind or Shapes.FITTED, folders)
         return _from_urdf(name, f"{name} (URDF)", urdf, urdf)
@@ -94,6 +98,14 @@ def load_arm(
             raise DataFileError(path, "of", robot.of, "the name of an arm given by a DH table")
         return Arm.from_dh(name, changed(original.mirrored(), title=robot.title), kind)
     return Arm.from_dh(name, robot, kind)
+
+
+def _folders(packages: object) -> tuple[Path, ...]:
+    given = [packages] if isinstance(packages, str | Path) else packages
+    try:
+        return tuple(Path(folder) for folder in given)  # type: ignore[attr-defined]
+    except TypeError:
+        raise InputError("load_arm", "packages", packages, "paths of folders") from None
 
 
 def _from_urdf_robot(

@@ -58,8 +58,9 @@ class JointSpace:
     def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
         """Whether lower - tolerance <= q <= upper + tolerance [rad, m], bool or (N,) of bool."""
         q = self.configurations(q)
-        inside = (q >= self.lower - tolerance) & (q <= self.upper + tolerance)
-        return bool(inside.all()) if q.ndim == 1 else inside.all(axis=1)
+        inside: np.ndarray = (q >= self.lower - tolerance) & (q <= self.upper + tolerance)
+        every: np.ndarray = np.all(inside, axis=-1)
+        return bool(every) if q.ndim == 1 else every
 
     def random_configurations(self, n: int, rng: np.random.Generator) -> np.ndarray:
         """``n`` configurations, uniform within :attr:`usual_range`, (n, nq) [rad, m]."""

@@ -101,12 +101,10 @@ def _touching(arm: Arm, q: np.ndarray, sample: np.ndarray | None = None) -> np.n
     pairs = watched_pairs(arm.solids)
     found = contacts(arm.model, arm.solids, pairs, q)
     always = found if sample is None else contacts(arm.model, arm.solids, pairs, sample)
-    hit: np.ndarray = found[:, ~always.all(axis=0)].any(axis=1)
-    return hit
+    return np.asarray(found[:, ~always.all(axis=0)].any(axis=1))
 
 
 def _flagged(arm: Arm, q: np.ndarray) -> np.ndarray:
     """Whether watched capsules of the arm alone overlap (N,)."""
     scene = Scene([PlacedArm("arm", arm)])
-    hit: np.ndarray = (distances(scene, q) <= 0.0).any(axis=1)
-    return hit
+    return np.asarray((distances(scene, q) <= 0.0).any(axis=1))

@@ -15,6 +15,7 @@ import numpy as np
 import pinocchio as pin
 
 from ...cache_folder import cache_folder
+from ...errors import DataFileError, DualArmError
 from ...sources import graph
 from ..capsules import LinkCapsule, geometry_of, not_contained
 from ..exclusions import Evidence, Exclusion
@@ -56,12 +57,24 @@ class FittedLinks:
         if path is not None and (kept := _read(path)) is not None:
             return kept
         solids = self._urdf.solids()
+        try:
+            found = self._compute(solids)
+        except DualArmError:
+            raise
+        except Exception as error:  # whatever a mesh makes of the algebra is the file's
+            reason, expected = str(error), 'shapes that capsules can enclose, or shapes="none"'
+            raise DataFileError(self._urdf.path, "collision shapes", reason, expected) from None
+        if path is not None:
+            _keep(path, found)
+        return found
+
+    def _compute(self, solids: pin.GeometryModel) -> dict[str, Any]:
         capsules = fitted(solids)
         judged = judge(self._urdf.model, solids, geometry_of(capsules))
         if judged.noisy:
             capsules = fitted(solids, judged.noisy)
             judged = judge(self._urdf.model, solids, geometry_of(capsules))
-        found = {
+        return {
             "capsules": [
                 [c.name, c.joint, c.start.tolist(), c.end.tolist(), c.radius] for c in capsules
             ],
@@ -70,9 +83,6 @@ class FittedLinks:
                 for one in judged.exclusions
             ],
         }
-        if path is not None:
-            _keep(path, found)
-        return found
 
     def _path(self) -> Path | None:
         folder = cache_folder()

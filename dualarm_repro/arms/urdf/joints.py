@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement
 
+import numpy as np
+
 from ...errors import DataFileError, UnknownNameError
 from ..angle import EXPECTED, Angle
 from ..joint_type import JointType
@@ -106,7 +108,7 @@ def locked_values(
     for name, given in lock.items():
         if name not in known:
             raise UnknownNameError(path, "lock", name, f"one of {', '.join(known)}")
-        value = given.item() if hasattr(given, "item") else given  # type: ignore[attr-defined]
+        value = given.item() if isinstance(given, np.generic) else given
         found[name] = _locked(path, name, value, joints)
         kind = joints.types.get(name)
         low, high = limits[name]

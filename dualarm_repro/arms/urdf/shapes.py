@@ -60,8 +60,8 @@ def check_shapes(path: Path, root: Element, shapes: Shapes) -> None:
             _check(path, f"collision {k} of link {name}", collision)
             count += 1
     if not count:
-        shown = f'shapes="visual" for its {visual} visual shapes, ' if visual else ""
-        expected = f"a collision shape on some link, {shown}{_REMEDY}"
+        seen = f'shapes="visual" for its {visual} visual shapes, ' if visual else ""
+        expected = f"a collision shape on some link, {seen}{_REMEDY}"
         raise DataFileError(path, "collision shapes", 0, expected)
 
 
@@ -78,8 +78,8 @@ def _check(path: Path, field: str, collision: Element) -> None:
     if (origin := collision.find("origin")) is not None:
         for attribute in ("xyz", "rpy"):
             if attribute in origin.attrib and not has(origin, attribute, 3, anything):
-                value = origin.get(attribute)
-                raise DataFileError(path, f"{field}: {attribute}", value, "three finite numbers")
+                place = origin.get(attribute)
+                raise DataFileError(path, f"{field}: {attribute}", place, "three finite numbers")
 
 
 def for_the_parser(path: Path, root: Element, packages: Sequence[Path]) -> tuple[Element, set[str]]:
