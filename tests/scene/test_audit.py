@@ -21,9 +21,8 @@ def urdf(tmp_path):
     """Two plates and a joint that turns, one that slides and one that turns for ever."""
 
     def write(height=0.4, name="arm.urdf"):
-        links = "".join(
-            f"<link name='l{k}'>{PLATE if k in (0, 3) else ''}</link>" for k in range(4)
-        )
+        shapes = (PLATE, "", "", PLATE)
+        links = "".join(f"<link name='l{k}'>{shape}</link>" for k, shape in enumerate(shapes))
         kinds = ("revolute", "prismatic", "continuous")
         joints = "".join(JOINT.format(k, kind, k + 1, height) for k, kind in enumerate(kinds))
         path = tmp_path / name
