@@ -11,7 +11,7 @@ from .capsule_kernels import covered, cut, refined, smallest
 
 #: Most capsules around a shape, and the share of the volume of the first one that each further one
 #: has to save.
-COARSE, FINE = (10, 0.015), (20, 0.004)
+COARSE, FINE = (10, 0.015), (16, 0.006)
 _PLACES = ((0.15,), (0.3,), (0.5,), (0.7,), (0.85,), (1 / 3, 2 / 3), (0.25, 0.5, 0.75))
 _POINTS = 500  # of the surface, by which the cuts are chosen
 _PROBES = 4000  # of space, by which volumes are compared

@@ -19,17 +19,19 @@ import pinocchio as pin
 from ..exclusions import Evidence, Exclusion, shape_of
 
 SAMPLES = 2000  # postures
-FLAGGED = 40  # of them, in which a pair has to raise a false alarm before it is left out
+FLAGGED = 40  # of them, in which a pair has to raise a false alarm before "never" counts
 MOST = 0.5  # share of postures in which a pair touches that touches at the home pose for good
-NOISY = 0.01  # share of postures in which a pair that is watched may raise a false alarm
+NOISY = 0.005  # share of postures in which a pair that is watched may raise a false alarm
 NEAR = 3e-3  # shapes nearly touch at this distance [m]
 
 
 class Judged(NamedTuple):
-    """Pairs left out, and the shapes of which other pairs still raise many false alarms."""
+    """Pairs left out, the shapes of which other pairs still raise many false alarms, and the share
+    of free postures in which any does."""
 
     exclusions: list[Exclusion]
     noisy: set[str]
+    alarms: float
 
 
 def judge(model: pin.Model, solids: pin.GeometryModel, capsules: pin.GeometryModel) -> Judged:
@@ -44,15 +46,16 @@ def judge(model: pin.Model, solids: pin.GeometryModel, capsules: pin.GeometryMod
     capsules
         Those around them, named ``shape`` or ``shape.k``.
     """
-    pairs, made = watched_pairs(solids), Judged([], set())
+    pairs, found, noisy = watched_pairs(solids), list[Exclusion](), set[str]()
     if not pairs:
-        return made
+        return Judged(found, noisy, 0.0)
     q = postures(model, SAMPLES)
     near = contacts(model, solids, pairs, q, NEAR)
     touching = near.copy()
     touching[near.any(axis=1)] = contacts(model, solids, pairs, q[near.any(axis=1)])
     home = contacts(model, solids, pairs, home_pose(model)[np.newaxis])[0]
     names = [shape.name for shape in solids.geometryObjects]
+    flagged, struck = (np.zeros(len(q), dtype=bool) for _ in range(2))
     for k, (of_pair, hits) in enumerate(_overlaps(model, names, capsules, pairs, q)):
         first, second = (names[i] for i in pairs[k])
         count, alarms = int(touching[:, k].sum()), int(hits.any(axis=1).sum())
@@ -67,26 +70,28 @@ def judge(model: pin.Model, solids: pin.GeometryModel, capsules: pin.GeometryMod
             dropped = _not_needed(hits, needed, touching[:, k])
             for c in dropped:
                 both = count, len(q), int(hits[:, c].sum())
-                made.exclusions.append(Exclusion(*of_pair[c], Evidence.NOT_NEEDED, *both))
+                found.append(Exclusion(*of_pair[c], Evidence.NOT_NEEDED, *both))
             kept = np.delete(hits, dropped, axis=1).any(axis=1)
             if (kept & ~touching[:, k]).mean() > NOISY:
-                made.noisy.update((first, second))
+                noisy.update((first, second))
+            flagged |= kept
+            struck |= touching[:, k]
             continue
-        made.exclusions.append(Exclusion(first, second, evidence, count, len(q), alarms))
-    return made
+        found.append(Exclusion(first, second, evidence, count, len(q), alarms))
+    return Judged(found, noisy, float(flagged[~struck].mean()) if not struck.all() else 0.0)
 
 
 def _not_needed(hits: np.ndarray, needed: np.ndarray, touching: np.ndarray) -> list[int]:
-    """Columns of ``hits`` (N, C) that raise many false alarms, worst first, as long as the others
-    hit in every posture that is ``needed`` (N,) and that any hits."""
-    false = (hits & ~touching[:, None]).sum(axis=0)
-    covered, dropped = hits[needed].sum(axis=1), []
-    for c in np.argsort(-false, kind="stable"):
-        if false[c] < FLAGGED:
+    """Columns of ``hits`` (N, C) that raise false alarms, worst first, until next to none is left,
+    as long as the others hit in every posture that is ``needed`` (N,) and that any hits."""
+    false = hits & ~touching[:, None]
+    covered, alarms, dropped = hits[needed].sum(axis=1), false.sum(axis=1), []
+    for c in np.argsort(-false.sum(axis=0), kind="stable"):
+        if np.count_nonzero(alarms) <= 0.2 * NOISY * len(hits):
             break
         rest = covered - hits[needed, c]
-        if (rest[covered > 0] > 0).all():
-            covered = rest
+        if false[:, c].any() and (rest[covered > 0] > 0).all():
+            covered, alarms = rest, alarms - false[:, c]
             dropped.append(int(c))
     return dropped
 

@@ -27,6 +27,11 @@ if TYPE_CHECKING:
     from ..urdf import URDF
 
 
+#: Share of free postures with a false alarm up to which no more capsules are made, and the share of
+#: false alarms that may be left for these to be worth their cost.
+ENOUGH, WORTH = 0.05, 0.7
+
+
 class FittedLinks:
     """Several capsules around each shape of a URDF, and the pairs of shapes that say nothing.
 
@@ -71,9 +76,11 @@ class FittedLinks:
     def _compute(self, solids: pin.GeometryModel) -> dict[str, Any]:
         capsules = fitted(solids)
         judged = judge(self._urdf.model, solids, geometry_of(capsules))
-        if judged.noisy:
-            capsules = fitted(solids, judged.noisy)
-            judged = judge(self._urdf.model, solids, geometry_of(capsules))
+        if judged.alarms > ENOUGH:
+            finer = fitted(solids, judged.noisy)
+            again = judge(self._urdf.model, solids, geometry_of(finer))
+            if again.alarms < WORTH * judged.alarms:
+                capsules, judged = finer, again
         return {
             "capsules": [
                 [c.name, c.joint, c.start.tolist(), c.end.tolist(), c.radius] for c in capsules
