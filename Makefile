@@ -13,7 +13,7 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger results metadata claims bench serve lint lock wheel clean
+.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger results arms metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -57,6 +57,9 @@ verify-portable: $(VENV)/.installed  ## verify, then test, with the machine code
 
 trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
 	$(BIN)/python tools/trust_ledger.py
+
+arms: $(VENV)/.installed  ## recompute the table of public arms, data/results/public_arms.parquet
+	$(BIN)/python tools/public_arms.py
 
 results: $(VENV)/.installed  ## recompute and rewrite data/results and what pins them
 	$(BIN)/dualarm verify --update

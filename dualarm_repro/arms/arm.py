@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from copy import copy
 from functools import cached_property, partial
+from types import ModuleType
 
 import numpy as np
 import pinocchio as pin
@@ -11,29 +13,40 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from ..errors import UnsupportedArmError
-from . import dh, kernels
+from . import dh, kernels, sliding
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
-from .poses import check_configurations, check_poses
+from .exclusions import Exclusion
+from .joint_space import JointSpace
+from .joint_type import JointType
+from .kernels import Chain
+from .poses import check_poses
 from .robot_file import DHRobot
+from .shapes import Shapes
+from .sliding import SlidingChain
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
 
 
-class Arm:
-    """A serial arm of revolute joints.
+class Arm(JointSpace):
+    """A serial arm of joints that turn (revolute, continuous) or slide (prismatic).
+
+    The unit of a joint is rad, of a prismatic joint m; so are those of its limits and its speed.
 
     Attributes
     ----------
     name, title : str
     model : pinocchio.Model
         Reduced to the joints between base and flange; nq = nv.
-    chain : Chain
-        The constant transforms of the batch kernels.
     nq : int
+    types : tuple of JointType
+        How each joint moves.
     lower, upper, velocity_limit : ndarray (nq,)
-        Joint limits [rad], speed limits [rad/s].
+        Joint limits [rad, m], infinite for a continuous joint; speed limits [rad/s, m/s].
+    remarks : tuple of str
+        What its file says that is not represented and does no harm: links that are seen but have
+        no collision shape, words of the parser.
     """
 
     def __init__(
@@ -41,25 +54,46 @@ class Arm:
         name: str,
         title: str,
         model: pin.Model,
-        flange: str,
+        flange: int,
         geometry: Callable[[], pin.GeometryModel],
         robot: DHRobot | None = None,
+        types: Sequence[JointType] | None = None,
+        exclusions: Callable[[], tuple[Exclusion, ...]] | None = None,
+        solids: Callable[[], pin.GeometryModel] | None = None,
+        remarks: Sequence[str] = (),
     ) -> None:
-        self.name, self.title, self.model = name, title, model
-        self._flange = model.getFrameId(flange)
+        super().__init__(
+            name,
+            types or (JointType.REVOLUTE,) * model.nq,
+            model.lowerPositionLimit.copy(),
+            model.upperPositionLimit.copy(),
+        )
+        self.title, self.model = title, model
+        self._flange = flange
         self._build_geometry, self._robot = geometry, robot
+        self._find_exclusions, self._read_solids = exclusions, solids
         self._data = model.createData()
-        self.chain = chain_of(name, model, self._flange)
-        self.nq = model.nq
-        self.lower = model.lowerPositionLimit.copy()
-        self.upper = model.upperPositionLimit.copy()
+        self._chain = chain_of(name, model, self._flange)
+        self.remarks = tuple(remarks)
         self.velocity_limit = model.velocityLimit.copy()
 
     @classmethod
-    def from_dh(cls, name: str, robot: DHRobot) -> Arm:
-        """Arm of a DH table."""
+    def from_dh(cls, name: str, robot: DHRobot, shapes: Shapes | None = None) -> Arm:
+        """Arm of a DH table; one without capsules has shapes only if they are to be ``none``."""
         capsules = partial(capsule_geometry, robot.capsules)
-        return cls(name, robot.title, build_model(robot, name), FLANGE, capsules, robot)
+        if not robot.capsules and shapes is not Shapes.NONE:
+            capsules = partial(_without_shapes, name)
+        elif shapes is Shapes.NONE:
+            capsules = partial(capsule_geometry, ())
+        model = build_model(robot, name)
+        return cls(name, robot.title, model, model.getFrameId(FLANGE), capsules, robot)
+
+    def reshaped(self, geometry: Callable[[], pin.GeometryModel]) -> Arm:
+        """The same arm with other capsules, built when they are first asked for."""
+        made = copy(self)
+        made.__dict__.pop("geometry", None)
+        made._build_geometry, made._data = geometry, self.model.createData()
+        return made
 
     def __repr__(self) -> str:
         return f"<Arm {self.name}: {self.nq} joints, {self.title}>"
@@ -68,6 +102,41 @@ class Arm:
     def geometry(self) -> pin.GeometryModel:
         """Capsules of the links (coal), in the frames of the joints, without collision pairs."""
         return self._build_geometry()
+
+    @cached_property
+    def exclusions(self) -> tuple[Exclusion, ...] | None:
+        """Pairs of its shapes that are not watched, by evidence; None if none was looked for.
+
+        A capsule belongs to the shape whose name it has, up to ``.k`` of its k-th capsule.
+        """
+        return self._find_exclusions() if self._find_exclusions else None
+
+    @cached_property
+    def solids(self) -> pin.GeometryModel | None:
+        """The collision shapes that its capsules stand for, as its URDF has them; else None."""
+        return self._read_solids() if self._read_solids else None
+
+    @property
+    def chain(self) -> Chain:
+        """The constant transforms of the batch kernels.
+
+        Raises
+        ------
+        UnsupportedArmError
+            A joint slides, which whoever asks for this chain does not know.
+        """
+        if isinstance(self._chain, SlidingChain):
+            name = self.model.names[1 + int(np.argmax(self._chain.slides))]
+            raise UnsupportedArmError(
+                f"arm {self.name}: joint {name} is prismatic, and this method knows joints that "
+                f"turn only: lock={{{name!r}: ...}} fixes it"
+            )
+        return self._chain
+
+    @property
+    def motion(self) -> Chain | SlidingChain:
+        """The constant transforms, whether joints slide or not."""
+        return self._chain
 
     @property
     def flange_id(self) -> int:
@@ -79,7 +148,7 @@ class Arm:
 
         Parameters
         ----------
-        q : (nq,) or (N, nq) [rad]
+        q : (nq,) or (N, nq) [rad, m]
 
         Returns
         -------
@@ -93,13 +162,13 @@ class Arm:
         """
         q = self.configurations(q)
         if q.ndim == 2:
-            return kernels.poses(self.chain, q)
+            return self._kernels.poses(self._chain, q)
         pin.forwardKinematics(self.model, self._data, q)
         return pin.updateFramePlacement(self.model, self._data, self._flange).homogeneous
 
     def positions(self, q: ArrayLike) -> np.ndarray:
         """Flange position p(q) in the base frame [m], (nq,) -> (3,) or (N, nq) -> (N, 3)."""
-        return self._batch(kernels.positions, self.configurations(q))
+        return self._batch(self._kernels.positions, self.configurations(q))
 
     def joint_positions(self, q: ArrayLike) -> np.ndarray:
         """Origins of the joint frames 1 ... nq and of the flange in the base frame [m].
@@ -111,7 +180,7 @@ class Arm:
         -------
         ndarray (nq + 1, 3) or (N, nq + 1, 3)
         """
-        return self._batch(kernels.frame_origins, self.configurations(q))
+        return self._batch(self._kernels.frame_origins, self.configurations(q))
 
     def jacobian(self, q: ArrayLike) -> np.ndarray:
         """Geometric Jacobian [v; omega] = J(q) dq at the flange origin, axes of the base.
@@ -119,7 +188,8 @@ class Arm:
         Returns
         -------
         ndarray (6, nv) or (N, 6, nv)
-            Rows 0-2 in metres per radian, rows 3-5 without unit.
+            Rows 0-2 in metres per radian, rows 3-5 without unit; of a prismatic joint rows 0-2
+            without unit, rows 3-5 zero.
 
         Raises
         ------
@@ -128,7 +198,7 @@ class Arm:
         """
         q = self.configurations(q)
         if q.ndim == 2:
-            return kernels.jacobians(self.chain, q)
+            return self._kernels.jacobians(self._chain, q)
         frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         jacobian = pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
         return jacobian.reshape(6, self.nq)  # Pinocchio drops the axis of a single joint
@@ -144,27 +214,8 @@ class Arm:
         """
         q = self.configurations(q)
         if q.ndim == 2:
-            return kernels.manipulabilities(self.chain, q)
+            return self._kernels.manipulabilities(self._chain, q)
         return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
-
-    def limits(self, enforced: bool = True) -> tuple[np.ndarray, np.ndarray]:
-        """Lower and upper limits of the joints (nq,) [rad], infinite unless ``enforced``."""
-        if enforced:
-            return self.lower, self.upper
-        return np.full(self.nq, -np.inf), np.full(self.nq, np.inf)
-
-    def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
-        """Whether lower - tolerance <= q <= upper + tolerance [rad], bool or (N,) of bool."""
-        q = self.configurations(q)
-        inside = (q >= self.lower - tolerance) & (q <= self.upper + tolerance)
-        return bool(inside.all()) if q.ndim == 1 else inside.all(axis=1)
-
-    def random_configurations(self, n: int, rng: np.random.Generator) -> np.ndarray:
-        """``n`` configurations, uniform within the limits, (n, nq) [rad]."""
-        q = rng.random((n, self.nq))
-        q *= self.upper - self.lower
-        q += self.lower
-        return q
 
     def ik(
         self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
@@ -251,19 +302,12 @@ class Arm:
         robot = self._dh_robot("the mirror image").mirrored()
         return Arm.from_dh(name or f"{self.name}-mirrored", robot)
 
-    def configurations(self, q: ArrayLike) -> np.ndarray:
-        """``q`` as a float64 array (nq,) or (N, nq).
-
-        Raises
-        ------
-        ConfigurationError
-            Wrong shape, NaN or infinity.
-        """
-        expected = f"{self.nq} finite numbers [rad], or rows of {self.nq}"
-        return check_configurations(f"arm {self.name}", q, self.nq, expected)
-
     def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
-        return kernel(self.chain, q) if q.ndim == 2 else kernel(self.chain, q[np.newaxis])[0]
+        return kernel(self._chain, q) if q.ndim == 2 else kernel(self._chain, q[np.newaxis])[0]
+
+    @property
+    def _kernels(self) -> ModuleType:
+        return sliding if isinstance(self._chain, SlidingChain) else kernels
 
     @cached_property
     def _wrist_geometry(self) -> WristGeometry:
@@ -273,7 +317,7 @@ class Arm:
         self, poses: np.ndarray, reference: ArrayLike | None, within_limits: bool
     ) -> np.ndarray:
         geometry = self._wrist_geometry
-        near = 0.5 * (self.lower + self.upper)
+        near = np.where(self.turns_for_ever, 0.0, 0.5 * np.add(*self.usual_range))
         if reference is not None:
             near = self.configurations(reference)
         return inverse_kinematics(geometry, poses, near, *self.limits(within_limits))
@@ -282,3 +326,10 @@ class Arm:
         if self._robot is None:
             raise UnsupportedArmError(f"arm {self.name}: {wanted} needs an arm given by a DH table")
         return self._robot
+
+
+def _without_shapes(name: str) -> pin.GeometryModel:
+    raise UnsupportedArmError(
+        f"arm {name}: its table has no capsules, so that it would collide with nothing: expected "
+        'capsules, or shapes="none"'
+    )

@@ -16,6 +16,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, TypeAdapter, model
 from ..datafiles import StrictModel, Text, read_yaml
 from ..errors import DataFileError
 from .angle import EXPECTED, Angle
+from .shapes import Shapes
 
 Length = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 ExactAngle = Annotated[
@@ -161,7 +162,12 @@ class URDFRobot(_Robot):
         description="path from the robot file, or below the folder robots of example-robot-data"
     )
     flange: Text = Field(description="name of the frame used as flange")
-    lock: dict[Text, ExactAngle] = Field(default={}, description="joint: angle it is fixed at")
+    lock: dict[Text, ExactAngle] = Field(
+        default={}, description="joint: angle it is fixed at; of a prismatic joint a length [m]"
+    )
+    shapes: Shapes = Field(
+        default=Shapes.ENCLOSING, description="how its collision shapes become capsules"
+    )
     collision: Text | None = Field(
         default=None, description="URDF of the same arm whose collision shapes are used instead"
     )

@@ -37,8 +37,7 @@ def with_capsules(
         rows = [(*name, *pair, size) for name, pair, size in zip(named, ends, sizes, strict=True)]
         return geometry_of(not_contained([LinkCapsule(*row) for row in (*rows, *added)]))
 
-    flange = arm.model.frames[arm.flange_id].name
-    return Arm(arm.name, arm.title, arm.model, flange, build)
+    return arm.reshaped(build)
 
 
 def sticking_out(arm: Arm, q: np.ndarray, joint: int, points: np.ndarray) -> float:

@@ -107,29 +107,42 @@ def _smallest(distance: np.ndarray, time: np.ndarray) -> tuple[float, float]:
     return float(least.min()), float(time[least.argmin()])
 
 
-def reach(arm: Arm) -> np.ndarray:
+def reach(arm: Arm, slide: np.ndarray | None = None) -> np.ndarray:
     """Greatest distance of any core point of each capsule from the axis of each joint, (C, nq) [m].
 
     Distance of the next joint's origin from the axis, plus the lengths of the further offsets, plus
-    that of the core's end; 0 for the joints that do not move the capsule.
+    that of the core's end, plus the largest ``slide`` of each joint between; 0 for the joints that
+    do not move the capsule. All points move as far as a prismatic joint does: 1.
+
+    Parameters
+    ----------
+    slide : (nq,), needed for an arm with prismatic joints
+        Largest |q| of them along the path [m]; of others not read.
     """
-    offset, links = arm.chain.translation, links_of(arm)
+    offset, links, slides = arm.motion.translation, links_of(arm), arm.slides
+    slide = np.zeros(arm.nq) if slide is None else np.where(slides, slide, 0.0)
     bound = np.zeros((len(links.joint), arm.nq))
     for row, joint, ends in zip(bound, links.joint, links.local, strict=True):
         for j in range(1, joint + 1):
+            if slides[j - 1]:
+                row[j - 1] = 1.0
+                continue
             for end in ends:
                 first, *further = [*offset[j:joint], end]
                 length = np.hypot(*first[:2]) + sum(np.linalg.norm(part) for part in further)
-                row[j - 1] = max(row[j - 1], length)
+                row[j - 1] = max(row[j - 1], length + slide[j:joint].sum())
     return bound
 
 
 def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray]:
     """Bound on the way the bodies of each pair have moved relative to each other, t -> (N, P)."""
-    lever = {placed.name: reach(placed.arm) for placed in scene.arms}
+    slide = np.abs(track.configurations).max(axis=0)
+    lever = {
+        placed.name: reach(placed.arm, slide[scene.columns[placed.name]]) for placed in scene.arms
+    }
     for name, mover in scene.moving.items():
         if isinstance(mover, MovingArm):
-            lever[name] = reach(mover.arm)
+            lever[name] = reach(mover.arm, np.abs(mover.path.configurations).max(axis=0))
         else:
             lever[name] = np.array([[1.0, _extent(mover.shape)]])
     rate = {name: np.zeros((len(scene.pairs), table.shape[1])) for name, table in lever.items()}

@@ -3,7 +3,8 @@
 d d / d q_j = n . (J_b - J_a)_j = +-n . (z_j x (p - o_j)), with the unit normal n from a to b, axis
 z_j and origin o_j of the joint, + if it moves only b, - if only a. J_a and J_b belong to the points
 fixed to the bodies that are nearest now: that these slide along the surfaces does not enter
-(envelope theorem). Both lie on one line along n, so that either serves as p.
+(envelope theorem). Both lie on one line along n, so that either serves as p. A prismatic joint has
+z_j in the place of the cross product.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def clearance_gradient(
     -------
     clearance : Clearance
     gradient : ndarray (P, nq) or (N, P, nq)
-        [m/rad]
+        [m/rad], of a prismatic joint without unit
     """
     found = clearance(scene, q, time)
     gradient = np.empty((*found.distance.shape, scene.nq))
@@ -55,4 +56,8 @@ def clearance_gradient(
     joints = np.concatenate([arm[:, 1:] for arm in frames], axis=1)
     rows = (a.reshape(len(joints), *a.shape[-2:]) for a in (found.point_a, found.normal, gradient))
     _gradients(joints, scene.support, *rows)
+    slides = np.concatenate([placed.arm.slides for placed in scene.arms])
+    for j in np.flatnonzero(slides):
+        along = found.normal @ joints[:, j, :, 2].reshape(*found.normal.shape[:-2], 3, 1)
+        gradient[..., j] = scene.support[:, j] * along[..., 0]
     return found, gradient

@@ -9,10 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from ..arms.arm import Arm
+from ..arms.exclusions import shape_of
 from ..errors import UnknownNameError
 from .bodies import Bodies, Body, PlacedArm, Sort
 from .pair_kernels import capsules_capsules
-from .posing import cores_in, link_frames, links_of
+from .posing import cores_in, frames_of, links_of
 
 SORTS: tuple[Sort, ...] = ("capsule", "box", "plane", "hull")
 _SAMPLES = 64
@@ -63,8 +64,8 @@ def find_pairs(
 ) -> Pairs:
     """Every link of a controlled arm against every other body, with four exceptions.
 
-    Left out are two bodies that never move, neighbouring links of one arm, links of one arm that
-    overlap in every configuration (:func:`always_overlapping`), and the exempt pairs.
+    Left out are two bodies that never move, neighbouring links of one arm, links of one arm whose
+    contact says nothing (:func:`saying_nothing`), and the exempt pairs.
 
     Raises
     ------
@@ -74,7 +75,7 @@ def find_pairs(
     for pair in exempt:
         for name in pair:
             _require(name, bodies.all)
-    overlapping = {placed.name: always_overlapping(placed.arm) for placed in arms}
+    silent = {placed.name: saying_nothing(placed.arm) for placed in arms}
 
     def watched(a: Body, b: Body) -> bool:
         if (a.still and b.still) or any(_joins((a, b), *names) for names in exempt):
@@ -82,7 +83,7 @@ def find_pairs(
         if a.owner != b.owner:
             return True
         neighbours = a.joint is None or b.joint is None or abs(a.joint - b.joint) <= 1
-        return self_collision and not neighbours and not overlapping[a.owner][a.link, b.link]
+        return self_collision and not neighbours and not silent[a.owner][a.link, b.link]
 
     links = [body for body in bodies.all if body.joint is not None]
     pairs = [
@@ -92,6 +93,21 @@ def find_pairs(
         if watched(a, b)
     ]
     return Pairs(tuple(sorted(pairs, key=lambda pair: SORTS.index(pair[1].sort))))
+
+
+def saying_nothing(arm: Arm) -> np.ndarray:
+    """Mask (C, C) of capsules of one arm that are not watched against each other: by the evidence
+    of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`."""
+    if arm.exclusions is None:
+        return always_overlapping(arm)
+    names = links_of(arm).names
+    pairs = {frozenset((one.first, one.second)) for one in arm.exclusions}
+    known = [{name, shape_of(name)} for name in names]
+    mask = np.zeros((len(names), len(names)), dtype=bool)
+    for a, first in enumerate(known):
+        for b, second in enumerate(known):
+            mask[a, b] = any(frozenset((x, y)) in pairs for x in first for y in second)
+    return mask
 
 
 def always_overlapping(arm: Arm) -> np.ndarray:
@@ -104,10 +120,11 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     for _ in range(32):
         phi = (1.0 + phi) ** (1.0 / (arm.nq + 1))
     fraction = np.outer(np.arange(1, _SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
-    q = arm.lower + fraction * (arm.upper - arm.lower)
+    lower, upper = arm.usual_range
+    q = lower + fraction * (upper - lower)
     links = links_of(arm)
     count = len(links.radius)
-    ends = cores_in(link_frames(arm.chain, np.eye(3, 4), q), links.joint, links.local)
+    ends = cores_in(frames_of(arm, np.eye(3, 4), q), links.joint, links.local)
     rows = np.argwhere(np.ones((count, count), dtype=bool))
     distance = np.empty((_SAMPLES, len(rows)))
     capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))

@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from ..arms.arm import Arm
 from .moving import MovingArm
-from .posing import link_frames, links_of, place_cores
+from .posing import frames_of, links_of, place_cores
 from .scene import Scene
 
 
@@ -57,7 +57,7 @@ def arm_frames(scene: Scene, q: np.ndarray) -> list[np.ndarray]:
 
 
 def _frames(arm: Arm, base: pin.SE3, q: np.ndarray) -> np.ndarray:
-    return link_frames(arm.chain, base.homogeneous[:3], q)
+    return frames_of(arm, base.homogeneous[:3], q)
 
 
 def _place_links(arm: Arm, frames: np.ndarray, cores: np.ndarray, rows: list[int]) -> None:

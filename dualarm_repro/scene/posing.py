@@ -10,6 +10,7 @@ import pinocchio as pin
 
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
+from ..arms.sliding import SlidingChain, sliding_frames
 from ..kernel import kernel
 
 
@@ -29,7 +30,7 @@ def links_of(arm: Arm) -> Links:
     data = arm.model.createData()
     q = pin.neutral(arm.model)
     pin.forwardKinematics(arm.model, data, q)
-    frames = link_frames(arm.chain, np.eye(3, 4), q[np.newaxis])[0]
+    frames = frames_of(arm, np.eye(3, 4), q[np.newaxis])[0]
     shapes = list(arm.geometry.geometryObjects)
     local = np.empty((len(shapes), 2, 3))
     for row, shape in zip(local, shapes, strict=True):
@@ -43,6 +44,17 @@ def links_of(arm: Arm) -> Links:
         local,
         np.array([shape.geometry.radius for shape in shapes], dtype=float),
     )
+
+
+def frames_of(arm: Arm, base: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Frames (N, n+1, 3, 4) of the base (3, 4) and the joints of any arm for q (N, n), see
+    :func:`link_frames`; a prismatic joint moves its frame along z."""
+    chain = arm.motion
+    if isinstance(chain, SlidingChain):
+        frames: np.ndarray = sliding_frames(chain, base, q)
+    else:
+        frames = link_frames(chain, base, q)
+    return frames
 
 
 @kernel

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arms.arm import Arm
 from ..arms.poses import check_configurations
 from ..errors import ConfigurationError, InputError, UnknownNameError
 from .bodies import Bodies, PlacedArm, Shape, collect
@@ -17,6 +18,7 @@ from .pairs import Pairs, find_pairs
 from .shapes import HalfSpace
 
 FLOOR = "floor"
+_TWO_TURNS = 2.0 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +84,9 @@ class Scene:
 
     @cached_property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lower and upper limits of the joints of all controlled arms (nq,) [rad]."""
-        lower, upper = zip(*(placed.arm.limits() for placed in self.arms), strict=True)
+        """Lower and upper limits of the joints of all controlled arms (nq,) [rad, m]; those of a
+        continuous joint are two turns apart, which holds the short way between any two angles."""
+        lower, upper = zip(*(_finite(placed.arm) for placed in self.arms), strict=True)
         return np.concatenate(lower), np.concatenate(upper)
 
     @cached_property
@@ -151,3 +154,9 @@ class Scene:
             arms=[other for other in self.arms if other is not placed],
             moving={**self.moving, name: MovingArm(placed.arm, path, placed.placement)},
         )
+
+
+def _finite(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
+    """The limits, those of continuous joints -2 pi and 2 pi."""
+    for_ever, (lower, upper) = arm.turns_for_ever, arm.limits()
+    return np.where(for_ever, -_TWO_TURNS, lower), np.where(for_ever, _TWO_TURNS, upper)

@@ -13,6 +13,7 @@ import pinocchio as pin
 from pydantic import Field
 
 from ..arms import Arm, load_arm
+from ..arms.shapes import Shapes
 from ..datafiles import StrictModel
 from ..errors import DataFileError, DualArmError, InputError
 from .bodies import PlacedArm
@@ -59,7 +60,15 @@ class ArmEntry(StrictModel):
     rpy: Rpy = UPRIGHT
     flange: str | None = Field(default=None, description="only for a URDF: frame used as flange")
     lock: dict[str, Radians] | None = Field(
-        default=None, description="only for a URDF: joint: angle it is fixed at"
+        default=None,
+        description="only for a URDF: joint: angle, of a prismatic one length [m], it is fixed at",
+    )
+    shapes: Shapes | None = Field(
+        default=None, description="only for a URDF: fitted (default), enclosing, visual or none"
+    )
+    packages: list[str] = Field(
+        default=[],
+        description="only for a URDF: folders, from the scene file, that hold its packages",
     )
     tool: ToolEntry | None = Field(default=None, description="a tool or a part that it carries")
     start: Configuration | None = Field(
@@ -154,7 +163,10 @@ def _placed(path: Path, name: str, entry: ArmEntry) -> PlacedArm:
     beside = path.parent / entry.robot
     try:
         robot: Path | str = beside if beside.is_file() else entry.robot
-        arm = _with_tool(path, name, entry, load_arm(robot, flange=entry.flange, lock=entry.lock))
+        folders = [path.parent / folder for folder in entry.packages]
+        options = {"flange": entry.flange, "lock": entry.lock, "shapes": entry.shapes}
+        loaded = load_arm(robot, **options, packages=folders)  # type: ignore[arg-type]
+        arm = _with_tool(path, name, entry, loaded)
         ends = (q if isinstance(q, list) else None for q in (entry.start, entry.goal))
         return PlacedArm(name, arm, pose_of(entry.xyz, entry.rpy), *ends)
     except DataFileError:

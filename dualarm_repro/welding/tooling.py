@@ -175,4 +175,4 @@ def with_tool(arm: Arm, cores: np.ndarray, radius: float) -> Arm:
             extended.addGeometryObject(pin.GeometryObject(*placed))
         return extended
 
-    return Arm(arm.name, arm.title, arm.model, frame.name, geometry)
+    return arm.reshaped(geometry)

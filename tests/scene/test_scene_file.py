@@ -104,6 +104,28 @@ def test_robot_file_beside_the_scene_file(tmp_path):
     np.testing.assert_allclose(distances(scene, [0.0]), [0.75], atol=1e-9)
 
 
+def test_shapes_and_packages_of_an_arm(tmp_path):
+    """The lower end of a rod is 1 m above a floor; without shapes no distance is left."""
+    robot, mesh = (tmp_path / "cell" / "stick.urdf"), tmp_path / "parts" / "own" / "rod.obj"
+    for path in (robot, mesh):
+        path.parent.mkdir(parents=True)
+    robot.write_text(
+        """<robot name="stick"><link name="base"/><link name="rod"><collision><geometry>
+        <mesh filename="package://own/rod.obj"/></geometry></collision></link>
+        <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/></joint>
+        </robot>"""
+    )
+    mesh.write_text("v 0 0 -1\nv 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n")
+    arm = "arms: {{a: {{robot: cell/stick.urdf, {}}}}}\nfloor: -2"
+    with pytest.raises(DataFileError, match=r"own/rod\.obj'.*packages="):
+        load_scene(write(tmp_path, arm.format("start: [7]")))
+    scene = load_scene(write(tmp_path, arm.format("packages: [parts], start: [7]")))
+    assert 0.9 < distances(scene, [6.0 * np.pi]).min() < 1.0
+    bare = load_scene(write(tmp_path, arm.format("shapes: none")))
+    assert distances(bare, np.zeros((3, 1))).shape == (3, 0)
+    assert bare.pairs.bodies == ()
+
+
 BAD = {
     "no arm": ("floor: 0", r"scene.yaml: arms = 'nothing': expected field required"),
     "empty arms": ("arms: {}", r"arms = "),
@@ -123,7 +145,7 @@ BAD = {
         "arms: {a: {robot: irb120, start: [0, 0, 0, 0, 0, .inf]}}",
         r"arms\.a\.start\.joints\.5 = inf",
     ),
-    "lock of a DH arm": ("arms: {a: {robot: irb120, lock: {j: 0}}}", r"arms\.a: flange, lock"),
+    "lock of a DH arm": ("arms: {a: {robot: irb120, lock: {j: 0}}}", r"arms\.a: lock"),
     "arm name": ("arms: {a/b: {robot: irb120}}", r"arms\.a/b"),
     "floor": ("arms: {a: {robot: irb120}}\nfloor: low", r"floor = 'low'"),
     "exempt": ("arms: {a: {robot: irb120}}\nexempt: [[a, lamp]]", r"body = 'lamp'.*one of"),

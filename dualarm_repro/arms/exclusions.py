@@ -1,0 +1,64 @@
+"""Pairs of shapes of one arm that are not watched, each with the evidence for it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+_PART = re.compile(r"\.\d+$")
+
+
+class Evidence(StrEnum):
+    """Why a pair of shapes says nothing about self-collision.
+
+    ``always``: the shapes touch in every sampled posture; ``home``: they touch at the home pose and
+    in most postures; ``never``: they touch in none, though capsules around them do;
+    ``not needed``: a pair of capsules of shapes that touch now and then, without which every
+    sampled contact is seen as well.
+    """
+
+    ALWAYS = "always"
+    HOME = "home"
+    NEVER = "never"
+    NOT_NEEDED = "not needed"
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """Two shapes, or two capsules, that are not watched.
+
+    Attributes
+    ----------
+    first, second : str
+        Names of the collision shapes, or of single capsules of them.
+    evidence : Evidence
+    touching, sampled : int
+        In how many of the sampled postures the shapes themselves touch.
+    flagged : int
+        In how many their capsules, or the two, do.
+    """
+
+    first: str
+    second: str
+    evidence: Evidence
+    touching: int
+    sampled: int
+    flagged: int
+
+    def __str__(self) -> str:
+        return (
+            f"{self.first} - {self.second}: {self.evidence}, shapes touch in {self.touching} and "
+            f"capsules in {self.flagged} of {self.sampled} postures"
+        )
+
+
+def shape_of(capsule: str) -> str:
+    """Name of the shape that a capsule belongs to; the k-th of several is named ``shape.k``."""
+    return _PART.sub("", capsule)
+
+
+def listed(exclusions: Iterable[Exclusion]) -> str:
+    """One line for each pair."""
+    return "\n".join(map(str, exclusions))

@@ -1,0 +1,44 @@
+"""Surfaces of shapes as triangles."""
+
+from __future__ import annotations
+
+import math
+
+import coal
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from ..capsules import corners
+
+_SIDES = 24  # of the prism around a cylinder
+
+
+def triangles_of(solid: coal.CollisionGeometry) -> np.ndarray:
+    """The surface of a box or mesh, or of a prism that just contains a cylinder (T, 3, 3) [m].
+
+    Raises
+    ------
+    UnsupportedArmError
+        The shape is none of these.
+    """
+    if isinstance(solid, coal.Cylinder):
+        turn = 2.0 * math.pi * np.arange(_SIDES) / _SIDES
+        radius = solid.radius / math.cos(math.pi / _SIDES)
+        rim = radius * np.column_stack([np.cos(turn), np.sin(turn)])
+        ends = (np.full(_SIDES, sign * solid.halfLength) for sign in (-1.0, 1.0))
+        return _hull(np.vstack([np.column_stack([rim, z]) for z in ends]))
+    points = corners(solid)
+    if not isinstance(solid, coal.BVHModelBase):
+        return _hull(points)
+    rows = [solid.tri_indices(k) for k in range(solid.num_tris)]
+    if not rows:  # points without a surface: each a triangle of no extent
+        return np.repeat(points[:, np.newaxis], 3, axis=1)
+    indices = np.array([(row[0], row[1], row[2]) for row in rows])
+    found: np.ndarray = points[indices]
+    return found
+
+
+def _hull(points: np.ndarray) -> np.ndarray:
+    """Triangles of the convex hull of points that span a body."""
+    found: np.ndarray = points[ConvexHull(points).simplices]
+    return found

@@ -1,0 +1,110 @@
+"""What a loaded arm is worth, against Pinocchio and the exact shapes of its own file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+from ..arms import load_arm
+from ..arms.arm import Arm
+from ..arms.capsules import capsule_ends, to_segment
+from ..arms.fit.evidence import contacts, home_pose, watched_pairs
+from ..arms.fit.triangles import triangles_of
+from ..errors import DualArmError, UnsupportedArmError
+from .bodies import PlacedArm
+from .clearance import distances
+from .scene import Scene
+
+
+def audit(path: Path, rng: np.random.Generator, postures: int = 400) -> dict[str, Any]:
+    """One row: whether a URDF loads, and if so how true its kinematics and its capsules are.
+
+    ``fk`` [m] is the largest difference from Pinocchio's model of the whole file, ``outside`` [m]
+    how far a vertex of a shape is outside the capsules of its shape, ``clear`` how many postures
+    the exact shapes call free of self-collision, ``false_alarms`` how many of these the capsules
+    flag, ``missed`` how many others they do not. Shapes that touch in every posture are part of the
+    arm and count for neither. ``home`` tells the same of the home pose.
+    """
+    try:
+        arm = load_arm(path)
+        arm.geometry  # noqa: B018  the meshes shall be read here
+    except DualArmError as error:
+        return {"loads": False, "said": str(error)}
+    q = arm.random_configurations(postures, rng)
+    touching, flagged = _touching(arm, q), _flagged(arm, q)
+    home = home_pose(arm.model)
+    return {
+        "loads": True,
+        "said": "",
+        "joints": arm.nq,
+        "flange": arm.model.frames[arm.flange_id].name,
+        "prismatic": int(arm.slides.sum()),
+        "continuous": int(arm.turns_for_ever.sum()),
+        "shapes": arm.solids.ngeoms if arm.solids else 0,
+        "capsules": arm.geometry.ngeoms,
+        "excluded": len(arm.exclusions or ()),
+        "fk": fk_error(path, arm, q[:20]),
+        "outside": outside(arm),
+        "home_clear": not _touching(arm, home[np.newaxis], q)[0],
+        "home_flagged": bool(_flagged(arm, home[np.newaxis])[0]),
+        "clear": int((~touching).sum()),
+        "false_alarms": int((flagged & ~touching).sum()),
+        "missed": int((touching & ~flagged).sum()),
+    }
+
+
+def fk_error(path: Path, arm: Arm, q: np.ndarray) -> float:
+    """Largest difference of T(q) from Pinocchio's own model of the whole file [m, 1]."""
+    full = pin.buildModelFromUrdf(str(path))
+    data, worst = full.createData(), 0.0
+    names = list(arm.model.names)[1:]
+    frame = full.getFrameId(arm.model.frames[arm.flange_id].name, pin.FrameType.BODY)
+    for row, pose in zip(q, arm.fk(q), strict=True):
+        whole = pin.neutral(full)
+        for name, value in zip(names, row, strict=True):
+            joint = full.joints[full.getJointId(name)]
+            at = slice(joint.idx_q, joint.idx_q + joint.nq)
+            whole[at] = [np.cos(value), np.sin(value)] if joint.nq == 2 else value
+        pin.framesForwardKinematics(full, data, whole)
+        both = np.abs(data.oMf[frame].homogeneous - pose), np.abs(pose - arm.fk(row))
+        worst = max(worst, *(float(part.max()) for part in both))
+    return worst
+
+
+def outside(arm: Arm) -> float:
+    """How far a vertex of an exact shape is outside all capsules of its joint [m]."""
+    if arm.solids is None:
+        raise UnsupportedArmError(f"arm {arm.name}: its exact shapes are not known")
+    worst = -np.inf
+    for shape in arm.solids.geometryObjects:
+        if isinstance(shape.geometry, coal.Sphere | coal.Capsule):
+            continue
+        points = triangles_of(shape.geometry).reshape(-1, 3)
+        points = points @ shape.placement.rotation.T + shape.placement.translation
+        gaps = [
+            to_segment(points, *capsule_ends(one.placement, one.geometry)) - one.geometry.radius
+            for one in arm.geometry.geometryObjects
+            if one.parentJoint == shape.parentJoint
+        ]
+        worst = max(worst, float(np.min(gaps, axis=0).max()))
+    return worst
+
+
+def _touching(arm: Arm, q: np.ndarray, sample: np.ndarray | None = None) -> np.ndarray:
+    """Whether exact shapes two or more joints apart touch (N,), but for those that always do."""
+    if arm.solids is None:
+        raise UnsupportedArmError(f"arm {arm.name}: its exact shapes are not known")
+    pairs = watched_pairs(arm.solids)
+    found = contacts(arm.model, arm.solids, pairs, q)
+    always = found if sample is None else contacts(arm.model, arm.solids, pairs, sample)
+    return np.asarray(found[:, ~always.all(axis=0)].any(axis=1))
+
+
+def _flagged(arm: Arm, q: np.ndarray) -> np.ndarray:
+    """Whether watched capsules of the arm alone overlap (N,)."""
+    scene = Scene([PlacedArm("arm", arm)])
+    return np.asarray((distances(scene, q) <= 0.0).any(axis=1))

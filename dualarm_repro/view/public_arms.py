@@ -1,0 +1,109 @@
+"""How the URDF files of example-robot-data load: a stored table, and its page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from example_robot_data import getModelPath
+
+from ..ledger.study import Study
+from ..scene.audit import audit
+from .cell_table import table
+from .page import Page
+
+POSTURES = 300
+EXACT, ROUNDING = 1e-12, 1e-9  # of forward kinematics [m, 1], and of capsules around meshes [m]
+_ANY = "ur_description/urdf/ur5_robot.urdf"
+_REMEDIES = ("flange=", "lock=", "shapes=", "packages=")
+_OF_LOADED = (
+    "joints", "flange", "prismatic", "continuous", "shapes", "capsules", "excluded", "exact",
+    "contained", "home_clear", "home_flagged", "clear", "false_alarms", "missed",
+)  # fmt: skip
+
+
+def public_files() -> list[str]:
+    """The URDF files of the package, below its folder of robots."""
+    root = Path(getModelPath(_ANY))
+    return sorted(path.relative_to(root).as_posix() for path in root.glob("*/**/*.urdf"))
+
+
+def _cells() -> list[dict[str, Any]]:
+    return [{"file": file} for file in public_files()]
+
+
+def _cell(cell: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """What :func:`..scene.audit.audit` finds, without paths of the machine."""
+    root = Path(getModelPath(_ANY))
+    found = audit(root / cell["file"], rng, POSTURES)
+    said = found["said"].replace(f"{root}/", "")
+    row = {"loads": found["loads"], "said": said, **dict.fromkeys(_OF_LOADED)}
+    row["remedy"] = any(word in said for word in _REMEDIES)
+    if found["loads"]:
+        found["exact"] = bool(found["fk"] <= EXACT)
+        found["contained"] = bool(found["outside"] <= ROUNDING)
+        row |= {key: found[key] for key in _OF_LOADED}
+    return row
+
+
+PUBLIC_ARMS = Study(
+    name="public_arms",
+    title="How the URDF files of example-robot-data load",
+    cells=_cells,
+    compute=_cell,
+    seed=20_150,
+    settings={"postures": POSTURES},
+)
+
+
+def summary(rows: pd.DataFrame) -> dict[str, Any]:
+    """Counts over the rows of the stored table."""
+    loaded = rows[rows["loads"].astype(bool)]
+    refused = rows[~rows["loads"].astype(bool)]
+    clear = loaded[loaded["home_clear"].astype(bool)]
+    alarms = 100.0 * loaded["false_alarms"] / loaded["clear"].clip(lower=1)
+    return {
+        "files": len(rows),
+        "load": len(loaded),
+        "refused with the remedy": int(refused["remedy"].sum()),
+        "forward kinematics as Pinocchio's to 1e-12": int(loaded["exact"].sum()),
+        "shapes within their capsules": int(loaded["contained"].sum()),
+        "home pose clear by meshes": len(clear),
+        "of these accepted": int((~clear["home_flagged"].astype(bool)).sum()),
+        "false alarms in at most 10 % of clear postures": int((alarms <= 10.0).sum()),
+        "postures that touch and were missed": int(loaded["missed"].sum()),
+        "of": int((POSTURES - loaded["clear"]).sum()),
+    }
+
+
+def public_arms_page() -> Page:
+    """The stored table: one row a file, and the counts over all of them.
+
+    Raises
+    ------
+    DataFileError, LedgerError
+        Nothing is stored, or it is stale; ``make arms`` computes it.
+    """
+    rows = PUBLIC_ARMS.load()
+    counts = "; ".join(f"{key}: {value}" for key, value in summary(rows).items())
+    alarms = 100.0 * rows["false_alarms"] / rows["clear"].clip(lower=1)
+    shown = pd.DataFrame(
+        {
+            "file": [file.rpartition("/")[2] for file in rows["file"]],
+            "joints": rows["joints"],
+            "flange": rows["flange"].fillna(""),
+            "shapes": rows["shapes"],
+            "capsules": rows["capsules"],
+            "pairs left out": rows["excluded"],
+            "false alarms [%]": alarms.round(1),
+            "missed": rows["missed"],
+            "refused because": rows["said"].str.partition(": ")[2],
+        }
+    )
+    return Page(f"<p>{counts}.</p>{table(shown, {'joints': '{:.0f}', **_WHOLE}).html}")
+
+
+_WHOLE = dict.fromkeys(("shapes", "capsules", "pairs left out", "missed"), "{:.0f}")
