@@ -88,11 +88,30 @@ class Arm(JointSpace):
         model = build_model(robot, name)
         return cls(name, robot.title, model, model.getFrameId(FLANGE), capsules, robot)
 
-    def reshaped(self, geometry: Callable[[], pin.GeometryModel]) -> Arm:
-        """The same arm with other capsules, built when they are first asked for."""
+    def reshaped(
+        self,
+        geometry: Callable[[], pin.GeometryModel],
+        name: str | None = None,
+        flange: tuple[str, pin.SE3] | None = None,
+    ) -> Arm:
+        """The same arm with other capsules, built when they are first asked for.
+
+        Parameters
+        ----------
+        flange : (str, pinocchio.SE3), optional
+            Name and pose, in the frame of the flange, of the frame that becomes the flange.
+        """
         made = copy(self)
         made.__dict__.pop("geometry", None)
-        made._build_geometry, made._data = geometry, self.model.createData()
+        made._build_geometry, made.name = geometry, name or self.name
+        if flange is not None:
+            made.__dict__.pop("_wrist_geometry", None)
+            made.model, at = self.model.copy(), self.model.frames[self._flange]
+            pose, kind = at.placement * flange[1], pin.FrameType.OP_FRAME
+            frame = pin.Frame(flange[0], at.parentJoint, self._flange, pose, kind)
+            made._flange = made.model.addFrame(frame)
+            made._chain = chain_of(made.name, made.model, made._flange)
+        made._data = made.model.createData()
         return made
 
     def __repr__(self) -> str:
@@ -137,6 +156,14 @@ class Arm(JointSpace):
     def motion(self) -> Chain | SlidingChain:
         """The constant transforms, whether joints slide or not."""
         return self._chain
+
+    @property
+    def stretched(self) -> float:
+        """Length of the way from the base over all joint origins to the flange, with every
+        prismatic joint out to its farther limit [m]."""
+        steps = np.linalg.norm(self._chain.translation, axis=1).sum()
+        slides = self.slides
+        return float(steps + np.maximum(abs(self.lower[slides]), abs(self.upper[slides])).sum())
 
     @property
     def flange_id(self) -> int:

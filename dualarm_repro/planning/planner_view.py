@@ -27,7 +27,6 @@ from ..scene import (
     signed_distance,
 )
 from ..scene.broad_phase import MANY, standing_near, with_obstacles
-from ..scene.reshaped import reshaped, stretched
 
 
 def planner_scene(
@@ -52,7 +51,7 @@ def planner_scene(
     known = with_parked(simple, parked)
     if len(known.obstacles) < MANY:
         return known
-    spans = [(one.placement.translation, 1.5 * stretched(one.arm)) for one in known.arms]
+    spans = [(one.placement.translation, 1.5 * one.arm.stretched) for one in known.arms]
     low, high = (np.array([at + side * span for at, span in spans]) for side in (-1.0, 1.0))
     return with_obstacles(known, standing_near(known, low, high, 0.0))
 
@@ -110,7 +109,7 @@ def _unmounted(scene: Scene, placed: PlacedArm, start: np.ndarray | None) -> Pla
             made.addGeometryObject(one)
         return made
 
-    return replace(placed, arm=reshaped(placed.arm, geometry))
+    return replace(placed, arm=placed.arm.reshaped(geometry))
 
 
 def _bases(placed: PlacedArm) -> Iterator[tuple[str, Capsule]]:

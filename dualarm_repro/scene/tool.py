@@ -9,7 +9,6 @@ import pinocchio as pin
 from ..arms.arm import Arm
 from ..arms.capsules import enclosing_capsules
 from ..errors import InputError
-from .reshaped import reshaped
 from .shapes import HalfSpace, Shape
 
 TIP = "tool tip"
@@ -44,4 +43,4 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
             made.addGeometryObject(one)
         return made
 
-    return reshaped(arm, carried, f"{arm.name} with tool", None if tip is None else (TIP, tip))
+    return arm.reshaped(carried, f"{arm.name} with tool", None if tip is None else (TIP, tip))

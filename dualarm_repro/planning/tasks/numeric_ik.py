@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from ...scene.bodies import PlacedArm
-from ...scene.reshaped import stretched
 from ..field.control_points import end_effector
 from .tip_goal import REACHED
 
@@ -95,7 +94,7 @@ def pose_posture(
 
 def _descended(placed: PlacedArm, goal: PoseGoal, seed: np.ndarray) -> PosePosture:
     arm, base = placed.arm, placed.placement.rotation
-    length = stretched(arm) or 1.0
+    length = arm.stretched or 1.0
 
     def residual(q: np.ndarray) -> np.ndarray:
         turn = base @ arm.fk(q)[:3, :3]
