@@ -100,8 +100,8 @@ def _print_outcome(summary: dict[str, Any]) -> None:
         print(f"{name}: {entry['reason']} after {entry['steps']} steps")
         if missed := entry["out_of_reach_m"]:
             print(f"  goal out of reach by {missed:.4f} m: planned to the nearest posture")
-        if excess := entry["beyond_limits_rad"]:
-            print(f"  beyond a joint limit by {excess:.4g} rad")
+        if excess := entry["beyond_limits"]:
+            print(f"  beyond a joint limit by {excess:.4g} (rad, or m if it slides)")
         if entry["certificate"]:
             certificate = entry["certificate"]
             print(f"  {', '.join(f'{key} {value}' for key, value in certificate.items())}")

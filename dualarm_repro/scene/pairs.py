@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ..arms.arm import Arm
-from ..arms.exclusions import shape_of
+from ..arms.exclusions import link_of, shape_of
 from ..errors import UnknownNameError
 from .bodies import Bodies, Body, PlacedArm, Sort
 from .pair_kernels import capsules_capsules
@@ -44,12 +44,13 @@ class Pairs:
         }
 
     def between(self, first: str, second: str) -> np.ndarray:
-        """Mask (P,) of the pairs that join two bodies or owners given by name, in either order.
+        """Mask (P,) of the pairs that join two bodies, links or owners given by name, in either
+        order; see :func:`names_of`.
 
         Raises
         ------
         UnknownNameError
-            No watched pair has a body or owner of that name.
+            No watched pair has a body, link or owner of that name.
         """
         for name in (first, second):
             _require(name, [body for pair in self.bodies for body in pair])
@@ -70,7 +71,7 @@ def find_pairs(
     Raises
     ------
     UnknownNameError
-        An exempt name that no body or owner has.
+        An exempt name that no body, link or owner has.
     """
     for pair in exempt:
         for name in pair:
@@ -97,7 +98,8 @@ def find_pairs(
 
 def saying_nothing(arm: Arm) -> np.ndarray:
     """Mask (C, C) of capsules of one arm that are not watched against each other: by the evidence
-    of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`."""
+    of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`, as is a tool at
+    its flange."""
     if arm.exclusions is None:
         return always_overlapping(arm)
     names = links_of(arm).names
@@ -107,6 +109,10 @@ def saying_nothing(arm: Arm) -> np.ndarray:
     for a, first in enumerate(known):
         for b, second in enumerate(known):
             mask[a, b] = any(frozenset((x, y)) in pairs for x in first for y in second)
+    judged = {one.name for one in arm.solids.geometryObjects} if arm.solids is not None else set()
+    added = np.array([not judged & one for one in known])
+    if judged and added.any():  # tools, of which the evidence of the arm knows nothing
+        mask |= always_overlapping(arm) & (added[:, np.newaxis] | added)
     return mask
 
 
@@ -131,8 +137,19 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     return (distance < 0).all(axis=0).reshape(count, count)
 
 
+@lru_cache(maxsize=4096)
+def names_of(name: str, owner: str) -> frozenset[str]:
+    """What a body answers to: its name, its owner's, and a capsule of an arm the names of its shape
+    and its link too."""
+    within = name.removeprefix(f"{owner}/")
+    if within == name:
+        return frozenset((name, owner))
+    shape, link = shape_of(within), link_of(within)
+    return frozenset((name, owner, f"{owner}/{shape}", f"{owner}/{link}"))
+
+
 def _belongs(body: Body, name: str) -> bool:
-    return name in (body.name, body.owner)
+    return name in names_of(body.name, body.owner)
 
 
 def _joins(pair: tuple[Body, Body], first: str, second: str) -> bool:
@@ -143,6 +160,7 @@ def _joins(pair: tuple[Body, Body], first: str, second: str) -> bool:
 
 
 def _require(name: str, bodies: Iterable[Body]) -> None:
-    known = sorted({known for body in bodies for known in (body.owner, body.name)})
-    if name not in known:
+    bodies = list(bodies)
+    if not any(_belongs(body, name) for body in bodies):
+        known = sorted({known for body in bodies for known in (body.owner, shape_of(body.name))})
         raise UnknownNameError("scene", "body", name, f"one of {', '.join(known)}")

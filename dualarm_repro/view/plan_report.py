@@ -38,7 +38,7 @@ def plan_summary(plan: AnyPlan, found: Truth | None = None) -> dict[str, Any]:
             "joint_length_rad": one.length,
             "tcp_length_m": one.tcp_length,
             "outside_limits": list(one.outside_limits),
-            "beyond_limits_rad": found.beyond_limits[name],
+            "beyond_limits": found.beyond_limits[name],
             "out_of_reach_m": plan.residuals.get(name, 0.0),
             "certificate": asdict(one.certificate) if one.certificate else None,
         }
@@ -46,7 +46,7 @@ def plan_summary(plan: AnyPlan, found: Truth | None = None) -> dict[str, Any]:
     }
     for name in plan.scene.columns:
         if name not in arms:
-            still = {"steps": 0, "beyond_limits_rad": found.beyond_limits[name]}
+            still = {"steps": 0, "beyond_limits": found.beyond_limits[name]}
             arms[name] = {"reason": PARKED, "reached": True, **still}
     return {"arms": arms, "reached": plan_reached(plan), **judged(found)}
 
