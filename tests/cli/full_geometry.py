@@ -34,8 +34,9 @@ class Posed:
         if file.suffix == ".urdf":
             self.model = pin.buildModelFromUrdf(str(file))
             folders = [str(one) for one in file.parents]
-            kind = pin.GeometryType.COLLISION
-            self.shapes = pin.buildGeomFromUrdf(self.model, str(file), kind, folders)
+            self.shapes = pin.buildGeomFromUrdf(
+                self.model, str(file), pin.GeometryType.COLLISION, package_dirs=folders
+            )
         silent = arm.exclusions or ()
         self.silent = {frozenset((one.first, one.second)) for one in silent}
         self.exact = file.suffix == ".urdf"

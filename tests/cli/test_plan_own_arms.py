@@ -291,3 +291,20 @@ def test_poses_in_which_meshes_are_clear_are_accepted(dualarm, tmp_path, robot, 
     (tmp_path / "out").mkdir()
     table.to_csv(tmp_path / "out" / "cell_only.csv")
     assert Replay(path, tmp_path / "out").touching() == set()
+
+
+def test_what_touches_by_its_meshes_is_refused(dualarm, tmp_path):
+    """Of random postures of a UR5, in which its meshes touch, not one is let through."""
+    q = np.random.default_rng(5).uniform(-2.5, 2.5, (25, 6)).round(3)
+    names = [f"q{k + 1}" for k in range(6)]
+    (tmp_path / "out").mkdir()
+    touching = 0
+    for start in q.tolist():
+        path, _ = written(tmp_path, arm("only", UR5, [0, 0, 0], start, start))
+        pd.DataFrame([start], columns=names).to_csv(tmp_path / "out" / "cell_only.csv")
+        if Replay(path, tmp_path / "out").touching():
+            touching += 1
+            code, _, err = dualarm("check", path)
+            assert code == 2
+            assert err.count("only/") >= 2
+    assert touching >= 3

@@ -176,10 +176,10 @@ def test_the_goal_of_what_turns_for_ever_is_the_near_one(tmp_path):
 
 def test_a_mounting_is_one_line_for_all_capsules_of_a_shape(tmp_path):
     """The lowest plate of a lift, fitted by several capsules, stands in a block."""
-    block = "obstacles: {block: {kind: box, center: [0, 0, 0.3], size: [0.3, 0.3, 0.3]}}\n"
+    block = "obstacles: {block: {kind: box, center: [0, 0, 0.4], size: [1, 1, 0.6]}}\n"
     text = lift(tmp_path, "[0.1, 0]", "[0.2, 0]", block)
     told = lines(tmp_path, text)
-    mounts = [line for line in told if "mounting" in line]
+    mounts = [line for line in told if "mounting = " in line]
     assert len(mounts) == 1
     assert "`exempt: [[lift/l1_0, block]]`" in mounts[0]
     cured = text + "exempt: [[lift/l1_0, block], [lift/l2, block]]\n"
