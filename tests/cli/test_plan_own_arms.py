@@ -232,6 +232,18 @@ def test_a_method_that_knows_turning_joints_only_says_so(dualarm, tmp_path, meth
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("method", ["apf-improved", "apf-bidirectional"])
+def test_with_its_lift_locked_an_arm_is_planned_by_these_methods(dualarm, tmp_path, method):
+    """The remedy of the line above."""
+    text = SCENES["a prismatic lift"][1].replace('"lift.urdf"', '"lift.urdf", lock: {up: 0.2}')
+    text = text.replace("[0.1, 0.2, 3.0, 0]", "[0.2, 3.0, 0]").replace("[0.4, 0.6,", "[0.6,")
+    path, _ = written(tmp_path, text)
+    out = tmp_path / "out"
+    code, _, err = dualarm("plan", path, "--method", method, "--out", out)
+    assert (code, err) == (0, "")
+    judged_again(path, out, [], json.loads((out / "cell.json").read_text()))
+
+
 def test_a_lift_that_is_parked_hinders_nobody(dualarm, tmp_path):
     """It stands as an obstacle, raised as its start says, for a method that cannot move it."""
     parked = arm("lift", "lift.urdf", [1.2, 0, 0], [0.4, 0.2, 3.0, 0])
