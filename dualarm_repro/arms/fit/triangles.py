@@ -38,6 +38,23 @@ def triangles_of(solid: coal.CollisionGeometry) -> np.ndarray:
     return found
 
 
+def surface_of(triangles: np.ndarray) -> coal.BVHModelOBBRSS:
+    """A mesh of triangles (T, 3, 3), as coal reads it."""
+    mesh = coal.BVHModelOBBRSS()
+    mesh.beginModel(len(triangles), 3 * len(triangles))
+    for a, b, c in triangles:
+        mesh.addTriangle(a, b, c)
+    mesh.endModel()
+    return mesh
+
+
+def convex(corners: np.ndarray) -> coal.Convex:
+    """The convex hull of its corners (V, 3), as coal reads it."""
+    points = coal.StdVec_Vec3s()
+    points.extend(list(corners))
+    return coal.Convex.convexHull(points, True, "Qt")
+
+
 def _hull(points: np.ndarray) -> np.ndarray:
     """Triangles of the convex hull of points that span a body."""
     found: np.ndarray = points[ConvexHull(points).simplices]
