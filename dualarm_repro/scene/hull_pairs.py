@@ -21,7 +21,7 @@ from ..arms.fit.triangles import convex
 from .posing import frames_of, in_link_frames
 from .scene import Scene
 
-CAP = 0.01  # hulls farther apart [m] count as this far
+CAP = 0.03  # hulls farther apart [m] count as this far
 _GJK = 1e-6  # by how much coal may overstate a distance [m]
 _FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
 

@@ -1,4 +1,4 @@
-"""How the URDF files of example-robot-data load: a stored table, and its page."""
+"""How the URDF files of example-robot-data load, and what a plan for two of one is worth."""
 
 from __future__ import annotations
 
@@ -17,8 +17,6 @@ from ..arms import load_arm
 from ..cache_folder import CACHE_VARIABLE
 from ..ledger.study import Study
 from ..scene.audit import audit
-from .cell_table import table
-from .page import Page
 from .public_pair import OF_PAIR, planned_pair
 
 POSTURES = 300
@@ -66,7 +64,7 @@ PUBLIC_ARMS = Study(
     compute=_cell,
     seed=20_150,
     settings={"postures": POSTURES},
-    measured=("seconds", *OF_PAIR),
+    measured=("seconds",),
     peers={"ompl": "pair_"},
 )
 
@@ -95,33 +93,3 @@ def summary(rows: pd.DataFrame) -> dict[str, Any]:
             (pairs["pair_lower"] > pairs["pair_meshes"] + ROUNDING).sum()
         ),
     }
-
-
-def public_arms_page() -> Page:
-    """The stored table: one row a file, and the counts over all of them.
-
-    Raises
-    ------
-    DataFileError, LedgerError
-        Nothing is stored, or it is stale; ``make arms`` computes it.
-    """
-    rows = PUBLIC_ARMS.load()
-    counts = "; ".join(f"{key}: {value}" for key, value in summary(rows).items())
-    alarms = 100.0 * rows["false_alarms"] / rows["clear"].clip(lower=1)
-    shown = pd.DataFrame(
-        {
-            "file": [file.rpartition("/")[2] for file in rows["file"]],
-            "joints": rows["joints"],
-            "flange": rows["flange"].fillna(""),
-            "shapes": rows["shapes"],
-            "capsules": rows["capsules"],
-            "pairs left out": rows["excluded"],
-            "false alarms [%]": alarms.round(1),
-            "missed": rows["missed"],
-            "refused because": rows["said"].str.partition(": ")[2],
-        }
-    )
-    return Page(f"<p>{counts}.</p>{table(shown, {'joints': '{:.0f}', **_WHOLE}).html}")
-
-
-_WHOLE = dict.fromkeys(("shapes", "capsules", "pairs left out", "missed"), "{:.0f}")

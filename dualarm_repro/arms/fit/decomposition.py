@@ -15,6 +15,7 @@ MOST, SAVING = 10, 0.015
 _PLACES = ((0.15,), (0.3,), (0.5,), (0.7,), (0.85,), (1 / 3, 2 / 3), (0.25, 0.5, 0.75))
 _POINTS = 500  # of the surface, by which the cuts are chosen
 _PROBES = 4000  # of space, by which volumes are compared
+_MANY = 20_000  # points to look at for the farthest
 _FEWEST = 8  # points on each side of a cut
 _LAP = 0.03  # share of the height by which the parts of a trial cut overlap
 
@@ -98,12 +99,13 @@ def main_axes(points: np.ndarray) -> np.ndarray:
 
 
 def extreme(points: np.ndarray) -> np.ndarray:
-    """Of points (N, 3) those that reach farthest in 200 directions."""
+    """Of points (N, 3), of very many of a share, those that reach farthest in 200 directions."""
+    points = points[:: 1 + len(points) // _MANY]
     k = np.arange(200) + 0.5
     z, turn = 1.0 - k / 100.0, np.pi * (1.0 + 5.0**0.5) * k
     across = np.sqrt(1.0 - z * z)
     directions = np.column_stack([across * np.cos(turn), across * np.sin(turn), z])
-    return points[np.unique((points @ directions.T).argmax(axis=0))]
+    return points[np.unique((directions @ points.T).argmax(axis=1))]
 
 
 def surface_points(triangles: np.ndarray, count: int) -> np.ndarray:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 import coal
 import numpy as np
@@ -23,9 +24,10 @@ from .parts import Part
 from .triangles import convex
 
 SAMPLES = 2000  # postures of the whole arm
-CLOSER = 1500  # postures of one pair, about those in which its capsules overlap
+CLOSER = 1000  # postures of one pair, about those in which its parts overlap
 SPREAD = 0.12  # standard deviation of these, as share of a joint's range of at most one turn
-FLAGGED = 20  # postures in which capsules have to overlap before "never" counts
+WORTH_IT = 5  # of them, in which parts have to overlap for it to be asked whether they ever meet
+FLAGGED = 20  # postures in which they have to overlap before "never" counts
 MOST = 0.5  # share of postures in which a pair touches that touches at the home pose for good
 NEAR = 2e-3  # contents are near each other at this distance [m]
 NEIGHBOURS = 40  # postures in which adjacent shapes are looked at
@@ -47,24 +49,48 @@ def judge(model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Part]) ->
     pairs = watched_pairs(solids)
     if not pairs:
         return found
-    q = postures(model, SAMPLES)
-    touching = contacts(model, solids, pairs, q)
-    home = contacts(model, solids, pairs, home_pose(model)[np.newaxis])[0]
-    names = [shape.name for shape in solids.geometryObjects]
+    q, home = postures(model, SAMPLES), home_pose(model)[np.newaxis]
     of_shape = defaultdict(list)
     for part in parts:
         of_shape[shape_of(part.capsule.name)].append(part)
+    bodies = {name: _Bodies.of(own) for name, own in of_shape.items()}
+    names = [shape.name for shape in solids.geometryObjects]
     for k, (i, j) in enumerate(pairs):
-        first, second, count = names[i], names[j], int(touching[:, k].sum())
-        group = PairOfShapes(model, solids, (i, j), of_shape[first], of_shape[second])
-        hits = group.overlaps(q)
-        if count == len(q) or (home[k] and count > MOST * len(q)):
+        pair = PairOfShapes(model, solids, (i, j), bodies[names[i]], bodies[names[j]])
+        hits = pair.overlaps(q)
+        alarms = hits.any(axis=1)
+        count = int(pair.contacts(q[alarms]).sum())
+        if count == len(q) or (count > MOST * len(q) and pair.contacts(home)[0]):
             evidence = Evidence.ALWAYS if count == len(q) else Evidence.HOME
-            alarms = int(hits.any(axis=1).sum())
-            found.append(Exclusion(first, second, evidence, count, len(q), alarms))
+            number = int(alarms.sum())
+            found.append(Exclusion(names[i], names[j], evidence, count, len(q), number))
         else:
-            found += group.never(q, hits, np.random.default_rng(k))
+            found += pair.never(q, hits, np.random.default_rng(k))
     return found
+
+
+class _Bodies(NamedTuple):
+    """The parts of one shape, the hull of each, and the hull of them all."""
+
+    parts: list[Part]
+    hulls: list[pin.GeometryObject]
+    whole: pin.GeometryObject
+
+    @classmethod
+    def of(cls, parts: list[Part]) -> _Bodies:
+        hulls = list(geometry_of(part.capsule for part in parts).geometryObjects)
+        for one, part in zip(hulls, parts, strict=True):
+            if len(part.corners):  # else the capsule
+                one.geometry, one.placement = convex(part.corners), pin.SE3.Identity()
+        whole = parts[0].shape.copy()
+        if all(len(part.corners) for part in parts):
+            corners = np.concatenate([part.corners for part in parts])
+            whole.geometry, whole.placement = convex(corners), pin.SE3.Identity()
+        elif len(parts) == 1:
+            whole = hulls[0]
+        else:
+            whole.geometry, whole.placement = coal.Halfspace(), pin.SE3.Identity()
+        return cls(parts, hulls, whole)
 
 
 class PairOfShapes:
@@ -75,33 +101,42 @@ class PairOfShapes:
         model: pin.Model,
         solids: pin.GeometryModel,
         pair: tuple[int, int],
-        first: Sequence[Part],
-        second: Sequence[Part],
+        first: _Bodies,
+        second: _Bodies,
     ) -> None:
         self._model, self._solids, self._pair = model, solids, pair
-        self._parts = [(a, b) for a in first for b in second]
-        self._hulls = _hulls([*first, *second])
-        self._rows = [(a, len(first) + b) for a in range(len(first)) for b in range(len(second))]
+        self._parts = [(a, b) for a in first.parts for b in second.parts]
+        self._hulls = _geometry([*first.hulls, *second.hulls])
+        self._whole = _geometry([first.whole, second.whole])
+        count = len(first.parts)
+        self._rows = [(a, count + b) for a in range(count) for b in range(len(second.parts))]
         self.names = [(a.capsule.name, b.capsule.name) for a, b in self._parts]
         joints = sorted(solids.geometryObjects[k].parentJoint for k in pair)
         self._moving = slice(joints[0], joints[1])  # only these joints move one against the other
 
     def overlaps(self, q: np.ndarray) -> np.ndarray:
         """Whether hulls touch, of each pair in each posture (N, C)."""
-        return contacts(self._model, self._hulls, self._rows, q)
+        found = np.zeros((len(q), len(self._parts)), dtype=bool)
+        near = contacts(self._model, self._whole, [(0, 1)], q)[:, 0]
+        found[near] = contacts(self._model, self._hulls, self._rows, q[near])
+        return found
+
+    def contacts(self, q: np.ndarray, near: float = 0.0) -> np.ndarray:
+        """Whether the shapes come nearer than ``near`` [m] in each posture (N,)."""
+        return contacts(self._model, self._solids, [self._pair], q, near)[:, 0]
 
     def never(self, q: np.ndarray, hits: np.ndarray, rng: np.random.Generator) -> list[Exclusion]:
         """Pairs of capsules that overlap often, though what they contain never comes near."""
-        met = np.zeros(len(self._parts), dtype=bool)
-        self._mark(q, hits, met)
-        closer = self._closer(q[hits[:, ~met].any(axis=1)], rng)
+        asked = hits.sum(axis=0) >= WORTH_IT
+        self._unask(q, hits, asked)
+        closer = self._closer(q[hits[:, asked].any(axis=1)], rng)
         again = self.overlaps(closer)
-        self._mark(closer, again, met)
+        self._unask(closer, again, asked)
         both = np.vstack([hits, again])
         counts = both.sum(axis=0)
         return [
             Exclusion(*self.names[c], Evidence.NEVER, 0, len(both), int(counts[c]))
-            for c in np.flatnonzero(~met & (counts >= FLAGGED))
+            for c in np.flatnonzero(asked & (counts >= FLAGGED))
         ]
 
     def _closer(self, q: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -115,33 +150,35 @@ class PairOfShapes:
         made[:, self._moving] = moved[:, self._moving]
         return made
 
-    def _mark(self, q: np.ndarray, hits: np.ndarray, met: np.ndarray) -> None:
-        """Set ``met`` (C,) for parts that overlap somewhere and whose contents come near there."""
-        rows = np.flatnonzero(hits.any(axis=1))
-        rows = rows[contacts(self._model, self._solids, [self._pair], q[rows], NEAR)[:, 0]]
+    def _unask(self, q: np.ndarray, hits: np.ndarray, asked: np.ndarray) -> None:
+        """Clear ``asked`` (C,) for parts whose contents come near in a posture in which they
+        overlap."""
         data = self._model.createData()
         request = coal.CollisionRequest()
         request.security_margin = NEAR
-        for n in rows:
-            open_ = np.flatnonzero(hits[n] & ~met)
-            if not len(open_):
+
+        def near(*bodies: tuple[coal.CollisionGeometry, pin.GeometryObject]) -> bool:
+            placed = []
+            for geometry, shape in bodies:
+                at = data.oMi[shape.parentJoint] * shape.placement
+                placed += [geometry, coal.Transform3s(at.rotation, at.translation)]
+            return bool(coal.collide(*placed, request, coal.CollisionResult()))
+
+        shapes = [self._solids.geometryObjects[k] for k in self._pair]
+        for posture, row in zip(q, hits, strict=True):
+            if not (row & asked).any():
                 continue
-            pin.forwardKinematics(self._model, data, q[n])
-            for c in open_:
-                placed = []
-                for part in self._parts[c]:
-                    one = part.content
-                    at = data.oMi[one.parentJoint] * one.placement
-                    placed += [one.geometry, coal.Transform3s(at.rotation, at.translation)]
-                met[c] = coal.collide(*placed, request, coal.CollisionResult()) > 0
+            pin.forwardKinematics(self._model, data, posture)
+            if near(*((shape.geometry, shape) for shape in shapes)):
+                for c in np.flatnonzero(row & asked):
+                    asked[c] = not near(*((one.content, one.shape) for one in self._parts[c]))
 
 
-def _hulls(parts: Sequence[Part]) -> pin.GeometryModel:
-    """The convex hulls in the frames of the joints; where there is none the capsule."""
-    found = geometry_of(part.capsule for part in parts)
-    for one, part in zip(found.geometryObjects, parts, strict=True):
-        if len(part.corners):
-            one.geometry, one.placement = convex(part.corners), pin.SE3.Identity()
+def _geometry(shapes: Sequence[pin.GeometryObject]) -> pin.GeometryModel:
+    found = pin.GeometryModel()
+    for k, one in enumerate(shapes):
+        made = pin.GeometryObject(f"{k}", one.parentJoint, one.placement, one.geometry)
+        found.addGeometryObject(made)
     return found
 
 

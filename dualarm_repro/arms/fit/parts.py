@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import coal
 import numpy as np
@@ -17,14 +17,32 @@ from .triangles import surface_of, triangles_of
 _NO_CORNERS = np.empty((0, 3))
 
 
-class Part(NamedTuple):
-    """A capsule in the frame of its joint, what it contains of the shape it is named after, and the
-    corners (V, 3) of the convex hull of that [m]: none where the hull would be the capsule or has
-    no volume."""
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A capsule in the frame of its joint, and what it contains of the shape it is named after.
+
+    Attributes
+    ----------
+    capsule : LinkCapsule
+    shape : pinocchio.GeometryObject
+    triangles : ndarray (T, 3, 3) or None
+        What it contains, in the frame of the shape [m]; None for all of a ball, capsule or rod.
+    corners : ndarray (V, 3)
+        Of the convex hull of that, in the frame of the joint [m]: none where the hull would be the
+        capsule or has no volume.
+    """
 
     capsule: LinkCapsule
-    content: pin.GeometryObject
+    shape: pin.GeometryObject
+    triangles: np.ndarray | None
     corners: np.ndarray
+
+    @cached_property
+    def content(self) -> coal.CollisionGeometry:
+        """The surface between the cuts of a mesh; any other shape stays whole."""
+        if self.triangles is None or not isinstance(self.shape.geometry, coal.BVHModelBase):
+            return self.shape.geometry
+        return surface_of(self.triangles)
 
 
 def parts_of(solids: pin.GeometryModel) -> list[Part]:
@@ -50,7 +68,7 @@ def parts_of(solids: pin.GeometryModel) -> list[Part]:
 
 def _whole(shape: pin.GeometryObject, half: np.ndarray, radius: float) -> Part:
     ends = shape.placement.act(-half), shape.placement.act(half)
-    return Part(LinkCapsule(shape.name, shape.parentJoint, *ends, radius), shape, _NO_CORNERS)
+    return Part(LinkCapsule(shape.name, shape.parentJoint, *ends, radius), shape, None, _NO_CORNERS)
 
 
 def _pieces(shape: pin.GeometryObject, pieces: list[Piece]) -> list[Part]:
@@ -68,16 +86,10 @@ def _pieces(shape: pin.GeometryObject, pieces: list[Piece]) -> list[Part]:
     for k, (capsule, own) in enumerate(made):
         name = shape.name if len(made) == 1 else f"{shape.name}.{k}"
         triangles = np.concatenate(own)
-        solid, corners = _content(shape.geometry, triangles), _corners(triangles)
-        content = pin.GeometryObject(name, shape.parentJoint, shape.placement, solid)
+        corners = _corners(triangles)
         corners = corners @ shape.placement.rotation.T + shape.placement.translation
-        found.append(Part(replace(capsule, name=name), content, corners))
+        found.append(Part(replace(capsule, name=name), shape, triangles, corners))
     return found
-
-
-def _content(solid: coal.CollisionGeometry, triangles: np.ndarray) -> coal.CollisionGeometry:
-    """The surface between the cuts of a mesh; a box or a cylinder stays whole."""
-    return surface_of(triangles) if isinstance(solid, coal.BVHModelBase) else solid
 
 
 def _corners(triangles: np.ndarray) -> np.ndarray:
