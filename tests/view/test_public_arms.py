@@ -9,7 +9,7 @@ from example_robot_data import getModelPath
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.scene.audit import audit
-from dualarm_repro.view.public_arms import _cell, public_files, summary
+from dualarm_repro.view.public_arms import PUBLIC_ARMS, _cell, public_files, summary
 from dualarm_repro.view.public_pair import planned_pair
 
 
@@ -48,6 +48,11 @@ def test_a_file_that_is_refused_says_how_to_go_on(rng):
     row = _cell({"file": "asr_twodof_description/urdf/TwoDofs.urdf"}, rng)
     assert (row["loads"], row["remedy"], row["joints"]) == (False, True, None)
     assert row["said"].startswith("asr_twodof_description/urdf/TwoDofs.urdf: collision shapes = 0")
+
+
+def test_a_row_of_the_stored_table_is_computed_again():
+    """It is the one of the UR5 with a gripper; ``make arms`` where it is stale."""
+    assert PUBLIC_ARMS.spot_check(1, seed=7) == []
 
 
 def test_the_counts_see_what_is_wrong():
