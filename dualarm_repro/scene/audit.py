@@ -96,7 +96,7 @@ def outside(arm: Arm) -> float:
     for shape in arm.solids.geometryObjects:
         if isinstance(shape.geometry, coal.Sphere | coal.Capsule):
             continue
-        points = triangles_of(shape.geometry).reshape(-1, 3)
+        points = _surface(shape.geometry)
         points = points @ shape.placement.rotation.T + shape.placement.translation
         gaps = [
             to_segment(points, *capsule_ends(one.placement, one.geometry)) - one.geometry.radius
@@ -105,6 +105,16 @@ def outside(arm: Arm) -> float:
         ]
         worst = max(worst, float(np.min(gaps, axis=0).max()))
     return worst
+
+
+def _surface(solid: coal.CollisionGeometry) -> np.ndarray:
+    """Points (N, 3) whose convex hull or whose triangles are the shape [m]."""
+    if not isinstance(solid, coal.Cylinder):
+        return triangles_of(solid).reshape(-1, 3)
+    turn = np.linspace(0.0, 2.0 * np.pi, 180)
+    rim = solid.radius * np.column_stack([np.cos(turn), np.sin(turn)])
+    ends = (np.full(len(turn), z) for z in (-solid.halfLength, solid.halfLength))
+    return np.vstack([np.column_stack([rim, z]) for z in ends])
 
 
 def excess(arm: Arm) -> float:

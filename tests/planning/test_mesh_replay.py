@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from dualarm_repro.arms import load_arm
+from dualarm_repro.arms import Evidence, Exclusion, load_arm
 from dualarm_repro.errors import UnsupportedArmError
 from dualarm_repro.planning.checks.mesh_replay import mesh_distance
 from dualarm_repro.scene import PlacedArm, Scene
@@ -35,6 +35,18 @@ def test_one_arm_by_itself(arm):
     assert mesh_distance(scene, rows[:2]) == pytest.approx(0.5 - 0.12, abs=1e-6)
     assert mesh_distance(scene, rows) == pytest.approx(np.cos(1.2) - 0.2, abs=1e-6)
     assert mesh_distance(scene, np.array([0.0, 2.9, 0.0])) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("evidence", "near", "contact"),
+    [(Evidence.NEVER, 0.38, 0.0), (Evidence.HOME, 0.38, 0.38)],
+)
+def test_pairs_that_are_left_out(arm, evidence, near, contact):
+    """Of shapes that never meet only contact counts, of shapes that say nothing not even that."""
+    arm.__dict__["exclusions"] = (Exclusion("l0_0", "l3_0", evidence, 0, 10, 10),)
+    scene = Scene([PlacedArm("a", arm)])
+    assert mesh_distance(scene, np.array([0.3, 2.4, 0.0])) == pytest.approx(near, abs=1e-6)
+    assert mesh_distance(scene, np.array([0.0, 2.9, 0.0])) == pytest.approx(contact, abs=1e-6)
 
 
 def test_two_arms(arm):

@@ -2,6 +2,7 @@
 
 Every shape of one arm against every shape of another, and of one arm the shapes two or more joints
 apart that are not left out (:attr:`...arms.arm.Arm.exclusions`), all by coal on what the files say.
+Two shapes some parts of which are left out, since these never meet, count where they touch.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import coal
 import numpy as np
 import pinocchio as pin
 
+from ...arms.exclusions import Evidence, shape_of
 from ...errors import UnsupportedArmError
 from ...scene import PlacedArm, Scene
 
@@ -40,6 +42,7 @@ def mesh_distance(scene: Scene, path: np.ndarray) -> float:
     """
     solids = [one for k, placed in enumerate(scene.arms) for one in _solids(k, placed)]
     pairs = list(_watched(scene, solids))
+    parts = [_left_out(placed, part=True) for placed in scene.arms]
     least = np.inf
     for q in np.atleast_2d(path):
         poses = _poses(scene, solids, q)
@@ -51,7 +54,11 @@ def mesh_distance(scene: Scene, path: np.ndarray) -> float:
         for k in np.argsort(gaps):
             if gaps[k] >= least:
                 break
-            least = min(least, _distance(solids, poses, *pairs[k]))
+            a, b = pairs[k]
+            gap, names = _distance(solids, poses, a, b), frozenset((solids[a].name, solids[b].name))
+            near = solids[a].owner == solids[b].owner and names in parts[solids[a].owner]
+            if gap <= 0.0 or not near:
+                least = min(least, gap)
     return least
 
 
@@ -83,11 +90,19 @@ def _poses(scene: Scene, solids: list[_Solid], q: np.ndarray) -> list[pin.SE3]:
     return [found[one.owner][one.joint] * one.placement for one in solids]
 
 
+def _left_out(placed: PlacedArm, part: bool) -> set[frozenset[str]]:
+    """Pairs of shapes that are left out, or (``part``) some parts of which are."""
+    shapes = {solid.name for solid in (placed.arm.solids or pin.GeometryModel()).geometryObjects}
+    found = set()
+    for one in placed.arm.exclusions or ():
+        names = frozenset((one.first, one.second))
+        if (names <= shapes and one.evidence is not Evidence.NEVER) != part:
+            found.add(frozenset(name if name in shapes else shape_of(name) for name in names))
+    return found
+
+
 def _watched(scene: Scene, solids: list[_Solid]) -> Iterator[tuple[int, int]]:
-    silent = [
-        {frozenset((one.first, one.second)) for one in placed.arm.exclusions or ()}
-        for placed in scene.arms
-    ]
+    silent = [_left_out(placed, part=False) for placed in scene.arms]
     for a, b in combinations(range(len(solids)), 2):
         one, other = solids[a], solids[b]
         if one.owner != other.owner:
