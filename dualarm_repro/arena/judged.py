@@ -130,7 +130,7 @@ def _at_the_point(case: Case, paths: Mapping[str, JointPath]) -> bool:
         np.linalg.norm(end_effector(one, ends[one.name]) - end_effector(one, case.goals[one.name]))
         for one in case.scene.arms
     ]
-    return max(away) <= AT_THE_POINT
+    return bool(max(away) <= AT_THE_POINT)
 
 
 def measures(case: Case, paths: Mapping[str, JointPath]) -> dict[str, float]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-_PART = re.compile(r"\.\d+$")
+_PART, _NUMBER = re.compile(r"\.\d+$"), re.compile(r"_\d+$")
 
 
 class Evidence(StrEnum):
@@ -57,6 +57,11 @@ class Exclusion:
 def shape_of(capsule: str) -> str:
     """Name of the shape that a capsule belongs to; the k-th of several is named ``shape.k``."""
     return _PART.sub("", capsule)
+
+
+def link_of(capsule: str) -> str:
+    """Name of the link that a capsule belongs to; its k-th shape is named ``link_k``."""
+    return _NUMBER.sub("", shape_of(capsule))
 
 
 def listed(exclusions: Iterable[Exclusion]) -> str:

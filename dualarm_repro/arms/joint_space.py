@@ -91,9 +91,12 @@ class JointSpace:
     def nearest(self, q: ArrayLike, reference: ArrayLike) -> np.ndarray:
         """The same posture with its continuous joints turned as near to ``reference`` as can be.
 
-        A planner that takes it as goal goes the short way round.
+        A planner that takes it as goal goes the short way round. The other joints stay to the
+        last digit.
         """
-        return self.configurations(reference) + self.difference(reference, q)
+        q = self.configurations(q)
+        turns = np.round((q - self.configurations(reference)) / (2.0 * np.pi))
+        return np.where(self.turns_for_ever, q - 2.0 * np.pi * turns, q)
 
     def distance(self, start: ArrayLike, end: ArrayLike) -> float | np.ndarray:
         """Euclidean length of :meth:`difference`, radians and metres counted alike."""

@@ -37,7 +37,7 @@ def barrier(problem: PathProblem) -> FoundPath:
         model, model.createData(), problem.start.copy(),
         collision_model=geometry, collision_data=pin.GeometryData(geometry),
     )  # fmt: skip
-    rows, lower, upper = [problem.start], *problem.scene.limits
+    rows, lower, upper = [problem.start], *problem.limits
     for step in range(min(_MOST_STEPS, problem.settings.evaluations)):
         q = rows[-1]
         if np.abs(problem.goal - q).max() <= _ARRIVED:

@@ -27,7 +27,7 @@ def mutual_avoidance(problem: PathProblem) -> FoundPath:
     inner = problem.margin
     settings = ControllerSettings(inner=inner, outer=inner + 0.07)
     number = code(settings.damper)
-    lower, upper = problem.scene.limits
+    lower, upper = problem.limits
     fastest = np.concatenate([placed.arm.velocity_limit for placed in problem.scene.arms])
     q = problem.start.copy()
     rows = [q]

@@ -52,7 +52,7 @@ def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False
     util.RNG.setSeed(problem.settings.seed + 1)
     space = base.RealVectorStateSpace(problem.scene.nq)
     bounds = base.RealVectorBounds(problem.scene.nq)
-    lower, upper = limits(problem)
+    lower, upper = problem.limits
     for j in range(problem.scene.nq):
         bounds.setLow(j, float(lower[j]))
         bounds.setHigh(j, float(upper[j]))
@@ -77,13 +77,6 @@ def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False
         _shortened(geometric, base, information, path, lambda: problem.spent)
     rows = np.array([_vector(state, len(lower)) for state in path.getStates()])
     return FoundPath(rows, Ending.REACHED)
-
-
-def limits(problem: PathProblem) -> tuple[np.ndarray, np.ndarray]:
-    """Bounds of the states (nq,): the joint limits, wide enough for start and goal as given."""
-    lower, upper = problem.scene.limits
-    ends = np.array([problem.start, problem.goal])
-    return np.minimum(lower, ends.min(axis=0)), np.maximum(upper, ends.max(axis=0))
 
 
 def _shortened(

@@ -40,7 +40,7 @@ def shooting(problem: PathProblem) -> FoundPath:
         via = 0.5 * (start + goal)
         if attempt:
             via = via + rng.normal(scale=0.5, size=len(via))
-        path = _optimised(crocoddyl, problem, model, np.clip(via, *problem.scene.limits))
+        path = _optimised(crocoddyl, problem, model, np.clip(via, *problem.limits))
         arrived = np.abs(path[-1] - goal).max() <= _NEAR
         if arrived:
             path[-1] = goal
@@ -67,7 +67,7 @@ def _optimised(crocoddyl: Any, problem: PathProblem, model: Any, via: np.ndarray
         states, speeds = list(solver.xs), list(solver.us)
         if done or problem.spent:
             break
-    return np.clip(np.array(solver.xs), *problem.scene.limits)
+    return np.clip(np.array(solver.xs), *problem.limits)
 
 
 def _clear(problem: PathProblem, path: np.ndarray) -> bool:

@@ -59,7 +59,8 @@ def plan(
     bad input, nothing is written.
     """
     with progress.waiting(f"planning {scene.name} by {method}"):
-        from ..ledger.files import to_json, write_text
+        from ..ledger.file_set import write_texts
+        from ..ledger.files import to_json
         from ..planning.checks.truth import truth
         from ..planning.methods import plan_file
         from ..view.plan_report import plan_reached, plan_scene, plan_summary, told, usable
@@ -71,15 +72,14 @@ def plan(
         summary = {**made, **plan_summary(found, judged)}
         mark = "" if good else f"# DO NOT RUN: {outcome}\n"
         title = f"{scene.stem} by {method}" + ("" if good else f": {outcome}")
-        texts = {out / f"{scene.stem}.json": to_json(summary)}
+        texts = {f"{scene.stem}.json": to_json(summary)}
         for name, one in found.plans.items():
-            texts[out / f"{scene.stem}_{name}.csv"] = mark + one.to_frame().to_csv()
-        page = out / f"{scene.stem}.html"
-        texts[page] = plan_scene(found, title).html()
-        files = [write_text(path, text) for path, text in texts.items()]
+            texts[f"{scene.stem}_{name}.csv"] = mark + one.to_frame().to_csv()
+        texts[f"{scene.stem}.html"] = plan_scene(found, title).html()
+        files = write_texts(out, texts)
     allowed = ["--allow-collision"] * allow_collision
     again = join(["dualarm", "plan", str(scene), "--method", method, "--out", str(out), *allowed])
-    view = join(["python3", "-m", "webbrowser", page.resolve().as_uri()])
+    view = join(["python3", "-m", "webbrowser", files[-1].resolve().as_uri()])
     if as_json:
         written = [str(path) for path in files]
         output.print_json({**summary, "files": written, "again": again, "view": view})
@@ -100,8 +100,8 @@ def _print_outcome(summary: dict[str, Any]) -> None:
         print(f"{name}: {entry['reason']} after {entry['steps']} steps")
         if missed := entry["out_of_reach_m"]:
             print(f"  goal out of reach by {missed:.4f} m: planned to the nearest posture")
-        if excess := entry["beyond_limits_rad"]:
-            print(f"  beyond a joint limit by {excess:.4g} rad")
+        if excess := entry["beyond_limits"]:
+            print(f"  beyond a joint limit by {excess:.4g} (rad, or m if it slides)")
         if entry["certificate"]:
             certificate = entry["certificate"]
             print(f"  {', '.join(f'{key} {value}' for key, value in certificate.items())}")

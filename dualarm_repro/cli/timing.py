@@ -26,7 +26,7 @@ def time(
         float, typer.Option(help="share of the speed limits of the joints that may be used")
     ] = 1.0,
     acceleration: Annotated[
-        float, typer.Option(help="largest acceleration of any joint [rad/s^2]")
+        float, typer.Option(help="largest acceleration of any joint [rad/s^2, m/s^2]")
     ] = 5.0,
     rate: Annotated[float, typer.Option(help="samples a second")] = 100.0,
     out: Out = Path("out"),
@@ -38,7 +38,7 @@ def time(
     page .html. The timed motion is certified anew; exit code 3: it is not free of contact.
     """
     with progress.waiting(f"timing {scene.name}"):
-        from ..ledger.files import write_text
+        from ..ledger.file_set import write_texts
         from ..planning.checks.truth import truth
         from ..planning.timing import export
         from ..planning.timing.timed_motion import timed
@@ -58,12 +58,12 @@ def time(
         free = found.collision_free and found.within_limits
         stem, mark = f"{scene.stem}_timed", "" if free else f"# DO NOT RUN: {found.verdict}\n"
         texts = {
-            out / f"{stem}.csv": mark + export.to_csv(motion),
-            out / f"{stem}.json": export.to_json(motion),
-            out / f"{stem}.yaml": mark + export.to_joint_trajectory(motion),
-            out / f"{stem}.html": timed_scene(motion, stem).html(),
+            f"{stem}.csv": mark + export.to_csv(motion),
+            f"{stem}.json": export.to_json(motion),
+            f"{stem}.yaml": mark + export.to_joint_trajectory(motion),
+            f"{stem}.html": timed_scene(motion, stem).html(),
         }
-        files = [write_text(path, text) for path, text in texts.items()]
+        files = write_texts(out, texts)
         summary = {
             "scene": scene.name,
             "duration_s": motion.duration,

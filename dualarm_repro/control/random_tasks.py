@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..scene.clearance import distances
-from ..scene.posing import cores_in, link_frames, links_of
+from ..scene.posing import cores_in, frames_of, links_of
 from ..scene.scene import Scene
 from .circle import Circles
 from .motion import FOLLOWED, Motion
@@ -48,8 +48,9 @@ def draw_task(
     system: ArmSystem, rng: np.random.Generator, radii: tuple[float, float]
 ) -> CircleTask:
     """Joint angles uniform in the middle nine tenths of their ranges, circles of any direction."""
-    arrays = system.arrays
-    middle, half = 0.5 * (arrays.upper + arrays.lower), 0.45 * (arrays.upper - arrays.lower)
+    ranges = [placed.arm.usual_range for placed in system.arms]
+    lower, upper = (np.concatenate(ends) for ends in zip(*ranges, strict=True))
+    middle, half = 0.5 * (upper + lower), 0.45 * (upper - lower)
     q0 = middle + half.clip(max=0.9 * np.pi) * rng.uniform(-1.0, 1.0, system.nq)
     normals = rng.normal(size=(len(system.arms), 3))
     angles = rng.uniform(0.0, 2.0 * np.pi, len(system.arms))
@@ -83,7 +84,7 @@ def lowest(system: ArmSystem, q: np.ndarray) -> float:
     heights = []
     for placed, part in zip(system.arms, np.split(q, system.arrays.start[1:-1]), strict=True):
         links, base = links_of(placed.arm), placed.placement.homogeneous[:3]
-        frames = link_frames(placed.arm.chain, base, part[np.newaxis])
+        frames = frames_of(placed.arm, base, part[np.newaxis])
         cores = cores_in(frames, links.joint, links.local)[0]
         low = cores[..., 2].min(axis=-1) - links.radius
         heights.append(low[links.joint > 1].min(initial=np.inf))

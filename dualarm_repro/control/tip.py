@@ -24,10 +24,5 @@ def with_tip(arm: Arm, ahead: float) -> Arm:
     """
     if not (np.isfinite(ahead) and ahead >= 0.0):
         raise InputError("with_tip", "ahead", ahead, "a distance in metres, zero or more")
-    model, flange = arm.model.copy(), arm.model.frames[arm.flange_id]
     forward = pin.SE3(np.eye(3), np.array([0.0, 0.0, ahead]))
-    model.addFrame(
-        pin.Frame("tip", flange.parentJoint, arm.flange_id, flange.placement * forward,
-                  pin.FrameType.OP_FRAME)
-    )  # fmt: skip
-    return Arm(arm.name, arm.title, model, "tip", lambda: arm.geometry)
+    return arm.reshaped(lambda: arm.geometry, flange=("tip", forward))

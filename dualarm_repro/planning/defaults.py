@@ -47,5 +47,7 @@ def default_two_arm_settings(arm: Arm) -> TwoArmSettings:
 
 
 def _reach(arm: Arm) -> float:
-    """Length of the stretched chain [m]."""
-    return float(np.linalg.norm(arm.chain.translation[1:], axis=1).sum())
+    """Length of the stretched chain, with every prismatic joint out to its farther limit [m]."""
+    slides, steps = arm.slides, np.linalg.norm(arm.motion.translation[1:], axis=1).sum()
+    far = np.maximum(np.abs(arm.lower[slides]), np.abs(arm.upper[slides])).sum()
+    return float(steps + far)

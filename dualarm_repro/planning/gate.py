@@ -9,13 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arms.exclusions import shape_of
 from ..errors import InputError
 from ..scene import PlacedArm, Scene, distances
 from ..scene.bodies import Body
 from .faults import TaskFaults
 
 START, GOAL = "start", "goal"
-#: A posture may lie this far beyond a limit [rad], which is rounding of what a file says.
+#: A posture may lie this far beyond a limit [rad, m], which is rounding of what a file says.
 ROUNDING = 1e-9
 #: Configurations in which a mounted capsule has to touch what it stands on.
 _SAMPLES = 64
@@ -35,7 +36,7 @@ def require_sound(
     source
         File that is named in the lines.
     starts, goals : mapping of arm to (nq,)
-        [rad], of every arm of the scene; a parked arm has the same in both.
+        [rad, m], of every arm of the scene; a parked arm has the same in both.
     allow_collision : bool
         Let bodies touch at the start and at the goal.
 
@@ -67,11 +68,13 @@ def limit_faults(
                 low, high = placed.arm.lower[joint], placed.arm.upper[joint]
                 name = placed.arm.model.names[joint + 1]
                 field = f"{placed.name}.{when}: {name}"
-                yield InputError(source, field, float(q[joint]), f"{low:.6g} to {high:.6g} rad")
+                unit = "m" if placed.arm.slides[joint] else "rad"
+                yield InputError(source, field, float(q[joint]), f"{low:.6g} to {high:.6g} {unit}")
 
 
 def beyond_limits(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
-    """By how much each joint of (..., nq) is beyond its limits [rad]; 0 inside."""
+    """By how much each joint of (..., nq) is beyond its limits [rad, m]; 0 inside, and for a
+    continuous joint."""
     return np.maximum(np.maximum(placed.arm.lower - q, q - placed.arm.upper), 0.0)
 
 
@@ -87,7 +90,11 @@ def contact_faults(
     found = distances(scene, q, np.array([0.0, last]))
     touching = np.flatnonzero((found <= 0.0).any(axis=0)).tolist()
     mounts = [k for k in touching if _mounted(scene, k)]
-    faults = [_mount_fault(source, scene.pairs.names[k], found[:, k].min()) for k in mounts]
+    deepest: dict[tuple[str, str], float] = {}
+    for k in mounts:
+        one, other = map(shape_of, scene.pairs.names[k])
+        deepest[one, other] = min(float(found[:, k].min()), deepest.get((one, other), 0.0))
+    faults = [_mount_fault(source, pair, distance) for pair, distance in deepest.items()]
     groups: dict[tuple[str, tuple[str, str]], list[int]] = defaultdict(list)
     for k in touching:
         if k not in mounts:
@@ -98,7 +105,7 @@ def contact_faults(
     ends = {START: starts, GOAL: goals}
     for (when, owners), pairs in groups.items():
         worst = min(pairs, key=lambda k: found[:, k].min())
-        one, other = scene.pairs.names[worst]
+        one, other = map(shape_of, scene.pairs.names[worst])
         at = ends[when.split(" and ")[0]]
         value = {name: at[name].tolist() for name in owners if name in at}
         more = f"; {len(pairs) - 1} more pairs of theirs touch" if len(pairs) > 1 else ""

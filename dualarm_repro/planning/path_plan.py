@@ -73,7 +73,8 @@ def as_plan(problem: PathProblem, found: FoundPath) -> CoordinatedPlan[Any]:
     for placed in scene.arms:
         part = np.ascontiguousarray(path[:, scene.columns[placed.name]])
         goal = problem.goal[scene.columns[placed.name]]
-        there = found.claimed and bool(np.abs(part[-1] - goal).max() <= ARRIVED)
+        missed = np.abs(placed.arm.difference(goal, part[-1])).max()
+        there = found.claimed and bool(missed <= ARRIVED)
         plans[placed.name] = PathPlan(placed, part, goal, found.reason, there, problem.evaluations)
         paths[placed.name] = JointPath(part)
     return CoordinatedPlan(scene, plans, paths)

@@ -95,6 +95,14 @@ class PathProblem:
         return self.evaluations >= self.settings.evaluations
 
     @property
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """Limits of the joints (nq,) [rad, m], finite and wide enough for start and goal: those of
+        a continuous joint are two turns apart, or reach to an end that lies farther."""
+        lower, upper = self.scene.limits
+        ends = np.array([self.start, self.goal])
+        return np.minimum(lower, ends.min(axis=0)), np.maximum(upper, ends.max(axis=0))
+
+    @property
     def margin(self) -> float:
         """Distance to keep: that of the settings, or half of what start and goal have [m]."""
         if self._margin is None:

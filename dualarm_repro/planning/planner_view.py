@@ -27,6 +27,7 @@ from ..scene import (
     signed_distance,
 )
 from ..scene.broad_phase import MANY, standing_near, with_obstacles
+from ..scene.pairs import names_of
 
 
 def planner_scene(
@@ -39,8 +40,9 @@ def planner_scene(
     exempt from, by which a planner would refuse the start.
     """
     arms = [_unmounted(scene, one, starts.get(one.name)) for one in scene.arms]
-    left = {f"{one.name}/{name}" for one in arms for name in links_of(one.arm).names}
-    gone = {body.name for body in scene.bodies.all if body.joint is not None} - left
+    left = {f"{one.name}/{name}": one.name for one in arms for name in links_of(one.arm).names}
+    links = {body.name: body.owner for body in scene.bodies.all if body.joint is not None}
+    gone = _names(links) - _names(left)
     simple = replace(
         scene,
         arms=arms,
@@ -71,6 +73,11 @@ def enclosing_box(hull: ConvexHull) -> Box:
     local = (hull.vertices - middle) @ rotation
     low, high = local.min(axis=0), local.max(axis=0)
     return Box(middle + rotation @ (0.5 * (low + high)), high - low, rotation)
+
+
+def _names(links: Mapping[str, str]) -> set[str]:
+    """Everything that links of owners answer to."""
+    return {known for name, owner in links.items() for known in names_of(name, owner)}
 
 
 def _boxed(solid: Shape | Sequence[Shape]) -> Shape | Sequence[Shape]:

@@ -92,7 +92,8 @@ def swept_boxes(scene: Scene, path: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     frames = [arm_frames(scene, rows) for rows in ends]
     for k, placed in enumerate(scene.arms):
         links, columns = links_of(placed.arm), scene.columns[placed.name]
-        travel = np.abs(ends[1] - ends[0])[:, columns] @ reach(placed.arm).T
+        slide = np.abs(path[:, columns]).max(axis=0)
+        travel = np.abs(ends[1] - ends[0])[:, columns] @ reach(placed.arm, slide).T
         grown = (links.radius + 0.5 * travel)[..., np.newaxis]
         cores = np.concatenate([cores_in(one[k], links.joint, links.local) for one in frames], 2)
         lows.append((cores.min(axis=2) - grown).reshape(-1, 3))

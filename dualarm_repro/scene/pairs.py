@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ..arms.arm import Arm
-from ..arms.exclusions import shape_of
+from ..arms.exclusions import link_of, shape_of
 from ..errors import UnknownNameError
 from .bodies import Bodies, Body, PlacedArm, Sort
 from .pair_kernels import capsules_capsules
 from .posing import cores_in, frames_of, links_of
 
 SORTS: tuple[Sort, ...] = ("capsule", "box", "plane", "hull")
-_SAMPLES = 64
+#: Configurations of :func:`always_overlapping`.
+SAMPLES = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,12 +45,13 @@ class Pairs:
         }
 
     def between(self, first: str, second: str) -> np.ndarray:
-        """Mask (P,) of the pairs that join two bodies or owners given by name, in either order.
+        """Mask (P,) of the pairs that join two bodies, links or owners given by name, in either
+        order; see :func:`names_of`.
 
         Raises
         ------
         UnknownNameError
-            No watched pair has a body or owner of that name.
+            No watched pair has a body, link or owner of that name.
         """
         for name in (first, second):
             _require(name, [body for pair in self.bodies for body in pair])
@@ -70,7 +72,7 @@ def find_pairs(
     Raises
     ------
     UnknownNameError
-        An exempt name that no body or owner has.
+        An exempt name that no body, link or owner has.
     """
     for pair in exempt:
         for name in pair:
@@ -119,20 +121,31 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     phi = 2.0
     for _ in range(32):
         phi = (1.0 + phi) ** (1.0 / (arm.nq + 1))
-    fraction = np.outer(np.arange(1, _SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
+    fraction = np.outer(np.arange(1, SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
     lower, upper = arm.usual_range
     q = lower + fraction * (upper - lower)
     links = links_of(arm)
     count = len(links.radius)
     ends = cores_in(frames_of(arm, np.eye(3, 4), q), links.joint, links.local)
     rows = np.argwhere(np.ones((count, count), dtype=bool))
-    distance = np.empty((_SAMPLES, len(rows)))
+    distance = np.empty((SAMPLES, len(rows)))
     capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))
     return (distance < 0).all(axis=0).reshape(count, count)
 
 
+@lru_cache(maxsize=4096)
+def names_of(name: str, owner: str) -> frozenset[str]:
+    """What a body answers to: its name, its owner's, and a capsule of an arm the names of its shape
+    and its link too."""
+    within = name.removeprefix(f"{owner}/")
+    if within == name:
+        return frozenset((name, owner))
+    shape, link = shape_of(within), link_of(within)
+    return frozenset((name, owner, f"{owner}/{shape}", f"{owner}/{link}"))
+
+
 def _belongs(body: Body, name: str) -> bool:
-    return name in (body.name, body.owner)
+    return name in names_of(body.name, body.owner)
 
 
 def _joins(pair: tuple[Body, Body], first: str, second: str) -> bool:
@@ -143,6 +156,7 @@ def _joins(pair: tuple[Body, Body], first: str, second: str) -> bool:
 
 
 def _require(name: str, bodies: Iterable[Body]) -> None:
-    known = sorted({known for body in bodies for known in (body.owner, body.name)})
-    if name not in known:
+    bodies = list(bodies)
+    if not any(_belongs(body, name) for body in bodies):
+        known = sorted({known for body in bodies for known in (body.owner, shape_of(body.name))})
         raise UnknownNameError("scene", "body", name, f"one of {', '.join(known)}")

@@ -43,10 +43,13 @@ def test_every_arm(name):
     assert arm.model.nq == arm.model.nv == arm.nq
     assert arm.within_limits(q).all()
     assert_allclose(q, arm.random_configurations(300, np.random.default_rng(1)), atol=0)
-    spread = (q.max(axis=0) - q.min(axis=0)) / (arm.upper - arm.lower)
+    spread = (q.max(axis=0) - q.min(axis=0)) / np.subtract(*arm.usual_range[::-1])
     assert (spread > 0.9).all()
     assert (arm.velocity_limit > 0).all()
-    beyond = np.vstack([arm.lower - 1e-6, arm.upper + 1e-6])
+    lower, upper = arm.limits()
+    assert np.isinf(lower[arm.turns_for_ever]).all()
+    beyond = np.vstack([lower - 1e-6, upper + 1e-6])
+    beyond[:, arm.turns_for_ever] = 99.0
     assert arm.within_limits(beyond).tolist() == [False, False]
     assert arm.within_limits(beyond, tolerance=1e-5).all()
     assert name in repr(arm)

@@ -15,7 +15,7 @@ ANGLE, POSITION = 1e-2, 1e-3
 
 def arrives(placed: PlacedArm, task: ReadTask, q: np.ndarray) -> bool:
     """Whether q (nq,) meets the goal: its joints, or the position or pose that is asked for."""
-    if np.abs(q - task.goal).max() <= ANGLE:
+    if np.abs(placed.arm.difference(task.goal, q)).max() <= ANGLE:
         return True
     if task.posture is None or task.posture.tool is not None:
         return False

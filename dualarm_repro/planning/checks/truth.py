@@ -37,9 +37,9 @@ class Truth:
     index : float
         Index of the paths at which they are.
     q : dict of ndarray (nq,)
-        The arms then [rad].
+        The arms then [rad, m].
     beyond_limits : dict of float
-        Largest excess of each arm over a limit of a joint [rad]; 0 inside.
+        Largest excess of each arm over a limit of a joint [rad, m]; 0 inside.
     """
 
     lower: float

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from ...arms import Arm
 from ...errors import InputError, UnknownNameError
+from ...scene import posing
 from ...scene.bodies import PlacedArm
-from ...scene.posing import Links, cores_in, link_frames, links_of
+from ...scene.posing import Links, cores_in, links_of
 from ..settings import PointSet
 
 
@@ -97,7 +98,7 @@ def ends_of(placed: PlacedArm, points: ControlPoints | Links, q: np.ndarray) -> 
 
 def frames_of(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
     """Frames of base and joints in the world for configurations (N, nq), (N, nq + 1, 3, 4)."""
-    return link_frames(placed.arm.chain, base_of(placed), q)
+    return posing.frames_of(placed.arm, base_of(placed), q)
 
 
 def base_of(placed: PlacedArm) -> np.ndarray:

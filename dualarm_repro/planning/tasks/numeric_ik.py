@@ -74,21 +74,21 @@ def pose_posture(
     arm, near = placed.arm, placed.arm.configurations(near)
     rng = np.random.default_rng(0)
     seeds = np.vstack([near, arm.random_configurations(_SEEDS, rng)])
-    width = np.where(np.isfinite(arm.upper - arm.lower), arm.upper - arm.lower, 0.0)
-    inside = 1e-9 * width
+    inside = 1e-9 * np.subtract(*arm.usual_range[::-1])
     best: PosePosture | None = None
     found: list[PosePosture] = []
     for seed in np.clip(seeds, arm.lower + inside, arm.upper - inside):
         one = _descended(placed, goal, seed)
         if best is None or one.missed + one.turned < best.missed + best.turned:
             best = one
-        if one.reached and all(np.abs(one.q - other.q).max() > _SAME for other in found):
+        away = (np.abs(arm.difference(one.q, other.q)).max() for other in found)
+        if one.reached and all(far > _SAME for far in away):
             found.append(one)
         if len(found) >= _ENOUGH and any(clear(other.q) for other in found):
             break
     if best is None or not found:
         return best or PosePosture(near, np.inf, np.inf)
-    found.sort(key=lambda one: float(np.linalg.norm(one.q - near)))
+    found.sort(key=lambda one: float(arm.distance(near, one.q)))
     return next((one for one in found if clear(one.q)), found[0])
 
 

@@ -81,6 +81,7 @@ class TaskFile(StrictModel):
 class ReadTask:
     """Start and goal of one arm (nq,) [rad], and by how much the goal misses its point [m].
 
+    A continuous joint of the goal is given as the angle nearest to that of the start.
     ``posture`` is what the goal has to fulfil where the file gives no joint vector.
     """
 
@@ -221,7 +222,8 @@ class _Reading:
             start, goal = ends["start"], ends["goal"]
             if start and goal:
                 posed = value if isinstance(value, PostureEntry) else None
-                found[name] = ReadTask(start[0], goal[0], residual=goal[1], posture=posed)
+                at = self._placed[name].arm.nearest(goal[0], start[0])
+                found[name] = ReadTask(start[0], at, residual=goal[1], posture=posed)
         return found
 
     def parked(self, file: TaskFile) -> dict[str, np.ndarray]:

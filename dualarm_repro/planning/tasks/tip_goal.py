@@ -41,7 +41,7 @@ def nearest_posture(placed: PlacedArm, point: ArrayLike, near: ArrayLike) -> Tip
     near = arm.configurations(near)
     turn = placed.placement.rotation
     rng = np.random.default_rng(0)
-    inside = 1e-9 * (arm.upper - arm.lower)
+    inside = 1e-9 * np.subtract(*arm.usual_range[::-1])
     seeds = np.vstack([near, arm.random_configurations(_SEEDS, rng)])
     found = []
     for seed in np.clip(seeds, arm.lower + inside, arm.upper - inside):
@@ -59,7 +59,7 @@ def nearest_posture(placed: PlacedArm, point: ArrayLike, near: ArrayLike) -> Tip
         found.append((float(np.linalg.norm(solution.fun)), solution.x))
     least = min(residual for residual, _ in found)
     good = [(r, q) for r, q in found if r <= least + _EQUALLY_GOOD]
-    residual, q = min(good, key=lambda pair: float(np.linalg.norm(pair[1] - near)))
+    residual, q = min(good, key=lambda pair: float(arm.distance(near, pair[1])))
     return TipPosture(q, end_effector(placed, q), residual)
 
 

@@ -20,5 +20,5 @@ def cloud_page(arm: Arm, rng: np.random.Generator) -> Page:
     title = f"{arm.title} and {_POINTS} flange positions for random joint angles."
     scene = Scene3D(title, camera=(1.3 * reach, 1.3 * reach, 0.8 * reach), grid=False)
     scene.add_points("workspace", points, GREEN, size=0.02 * reach)
-    scene.add_arm("arm", arm, 0.5 * (arm.lower + arm.upper), color=BLUE)
+    scene.add_arm("arm", arm, 0.5 * np.add(*arm.usual_range), color=BLUE)
     return Page(scene.page_html())
