@@ -15,6 +15,7 @@ from .decomposition import Piece, decompose
 from .triangles import surface_of, triangles_of
 
 _NO_CORNERS = np.empty((0, 3))
+_THIN = 1e-6  # volume over surface [m] of what is as good as flat
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,9 +96,11 @@ def _pieces(shape: pin.GeometryObject, pieces: list[Piece]) -> list[Part]:
 def _corners(triangles: np.ndarray) -> np.ndarray:
     points = triangles.reshape(-1, 3)
     try:
-        return points[ConvexHull(points).vertices]
+        hull = ConvexHull(points)
     except (QhullError, ValueError):  # flat
         return _NO_CORNERS
+    thick = hull.volume > _THIN * hull.area
+    return points[hull.vertices] if thick else _NO_CORNERS
 
 
 def _is_rod(solid: coal.CollisionGeometry) -> bool:

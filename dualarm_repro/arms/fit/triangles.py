@@ -6,7 +6,7 @@ import math
 
 import coal
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from ..capsules import corners
 
@@ -49,10 +49,20 @@ def surface_of(triangles: np.ndarray) -> coal.BVHModelOBBRSS:
 
 
 def convex(corners: np.ndarray) -> coal.Convex:
-    """The convex hull of its corners (V, 3), as coal reads it."""
-    points = coal.StdVec_Vec3s()
-    points.extend(list(corners))
-    return coal.Convex.convexHull(points, True, "Qt")
+    """The convex hull of its corners (V, 3), as coal reads it.
+
+    The faces are Qhull's by way of scipy: coal's own call of it ends the process on thin bodies.
+    """
+    try:
+        hull = ConvexHull(corners)
+    except QhullError:  # thin, and turned
+        hull = ConvexHull(corners, qhull_options="QJ")
+    number = np.zeros(len(corners), dtype=int)
+    number[hull.vertices] = np.arange(len(hull.vertices))
+    points, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    points.extend(list(corners[hull.vertices]))
+    faces.extend([coal.Triangle(a, b, c) for a, b, c in number[hull.simplices].tolist()])
+    return coal.Convex(points, faces)
 
 
 def _hull(points: np.ndarray) -> np.ndarray:
