@@ -55,9 +55,13 @@ def judge(model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Part]) ->
         of_shape[shape_of(part.capsule.name)].append(part)
     bodies = {name: _Bodies.of(own) for name, own in of_shape.items()}
     names = [shape.name for shape in solids.geometryObjects]
+    middles, radii = _balls(model, solids, [of_shape[name] for name in names], q)
     for k, (i, j) in enumerate(pairs):
+        apart = np.linalg.norm(middles[:, i] - middles[:, j], axis=1) > radii[i] + radii[j]
+        if apart.all():
+            continue
         pair = PairOfShapes(model, solids, (i, j), bodies[names[i]], bodies[names[j]])
-        hits = pair.overlaps(q)
+        hits = pair.overlaps(q, ~apart)
         alarms = hits.any(axis=1)
         count = int(pair.contacts(q[alarms]).sum())
         if count == len(q) or (count > MOST * len(q) and pair.contacts(home)[0]):
@@ -114,10 +118,11 @@ class PairOfShapes:
         joints = sorted(solids.geometryObjects[k].parentJoint for k in pair)
         self._moving = slice(joints[0], joints[1])  # only these joints move one against the other
 
-    def overlaps(self, q: np.ndarray) -> np.ndarray:
-        """Whether hulls touch, of each pair in each posture (N, C)."""
+    def overlaps(self, q: np.ndarray, among: np.ndarray | None = None) -> np.ndarray:
+        """Whether hulls touch, of each pair in each posture (N, C), looked at ``among`` (N,)."""
         found = np.zeros((len(q), len(self._parts)), dtype=bool)
-        near = contacts(self._model, self._whole, [(0, 1)], q)[:, 0]
+        near = np.ones(len(q), dtype=bool) if among is None else among.copy()
+        near[near] = contacts(self._model, self._whole, [(0, 1)], q[near])[:, 0]
         found[near] = contacts(self._model, self._hulls, self._rows, q[near])
         return found
 
@@ -172,6 +177,26 @@ class PairOfShapes:
             if near(*((shape.geometry, shape) for shape in shapes)):
                 for c in np.flatnonzero(row & asked):
                     asked[c] = not near(*((one.content, one.shape) for one in self._parts[c]))
+
+
+def _balls(
+    model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Sequence[Part]], q: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Middles (N, S, 3) and radii (S,) of balls around the capsules of each shape [m]."""
+    joints = [shape.parentJoint for shape in solids.geometryObjects]
+    ends = [[e for part in own for e in (part.capsule.start, part.capsule.end)] for own in parts]
+    middles = np.array([np.mean(own, axis=0) for own in ends])
+    radii = [
+        max(np.linalg.norm(e - middle) for e in own) + max(part.capsule.radius for part in among)
+        for own, middle, among in zip(ends, middles, parts, strict=True)
+    ]
+    data, found = model.createData(), np.empty((len(q), len(joints), 3))
+    for row, posture in zip(found, q, strict=True):
+        pin.forwardKinematics(model, data, posture)
+        turns = np.array([pose.rotation for pose in data.oMi])[joints]
+        row[:] = np.einsum("sij,sj->si", turns, middles)
+        row += np.array([pose.translation for pose in data.oMi])[joints]
+    return found, np.array(radii)
 
 
 def _geometry(shapes: Sequence[pin.GeometryObject]) -> pin.GeometryModel:
