@@ -55,7 +55,8 @@ def whole_model(scene: Scene) -> WholeModel:
     known = {one.name: k for k, one in enumerate(geometry.geometryObjects)}
     hulled = {pair.column for pairs in hull_pairs(scene).values() for pair in pairs}
     for column, names in enumerate(scene.pairs.names):
-        bodies = (known[f"{name}{_HULL}" if column in hulled else name] for name in names)
+        hulls = (f"{name}{_HULL}" if column in hulled else name for name in names)
+        bodies = (known.get(hull, known[name]) for hull, name in zip(hulls, names, strict=True))
         geometry.addCollisionPair(pin.CollisionPair(*bodies))
     return WholeModel(model, geometry)
 

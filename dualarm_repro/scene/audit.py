@@ -119,7 +119,7 @@ def _surface(solid: coal.CollisionGeometry) -> np.ndarray:
 
 def excess(arm: Arm) -> float:
     """Volume of the capsules over that of the convex parts that they contain, by points spread over
-    each shape; balls, rods and capsules count as themselves."""
+    each shape; balls and capsules count as themselves."""
     volumes = np.zeros(2)
     of_shape = defaultdict(list)
     for one in arm.geometry.geometryObjects:

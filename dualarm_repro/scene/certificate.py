@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arms.arm import Arm
+from ..arms.fit.triangles import PRISM
 from .clearance import distances
 from .hull import ConvexHull
 from .hull_pairs import hull_pairs
@@ -155,7 +156,8 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
             rate[a.owner][k, low.joint :] = lever[a.owner][high.link, low.joint :]
             if k in hulled:  # corners of a hull are farther from an axis than the core
                 turning = ~arms[a.owner].slides[low.joint : high.joint]
-                rate[a.owner][k, low.joint : high.joint] += scene.bodies.radius[high.row] * turning
+                radius = PRISM * scene.bodies.radius[high.row]
+                rate[a.owner][k, low.joint : high.joint] += radius * turning
         else:
             for body in (a, b):
                 if body.owner in rate:

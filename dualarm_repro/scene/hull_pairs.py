@@ -1,8 +1,8 @@
 """Distances of links of one arm by the convex hulls of what their capsules contain.
 
 Two capsules and the hulls within them both give a lower bound on the distance of the shapes. Of
-d = max(d_capsules, min(d_hulls, CAP)) the hulls are looked at only where d_capsules < CAP: hulls
-are within capsules, so that d is continuous, and as each of its terms it changes no faster than the
+d = max(d_capsules, min(d_hulls, CAP)) the hulls are looked at only where d_capsules < CAP, where
+it is continuous, and as each of its terms it changes no faster than the
 bodies move.
 """
 
@@ -14,11 +14,12 @@ from typing import NamedTuple
 
 import coal
 import numpy as np
+import pinocchio as pin
 
 from ..arms.arm import Arm
-from ..arms.capsules import capsule_ends, to_segment
-from ..arms.fit.triangles import convex
-from .posing import frames_of, in_link_frames
+from ..arms.capsules import capsule_ends, segment_capsule, to_segment
+from ..arms.fit.triangles import PRISM, convex
+from .posing import frames_of, in_link_frames, links_of
 from .scene import Scene
 
 CAP = 0.03  # hulls farther apart [m] count as this far
@@ -26,43 +27,64 @@ _GJK = 1e-6  # by how much coal may overstate a distance [m]
 _FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
 
 
+class Carried(NamedTuple):
+    """A hull, or a capsule that has none, at a pose in the frame of the joint that carries it."""
+
+    joint: int
+    geometry: coal.CollisionGeometry
+    pose: pin.SE3
+
+    def placed(self, frames: np.ndarray) -> coal.Transform3s:
+        """Where it is, for frames (J, 3, 4)."""
+        turn, origin = frames[self.joint, :, :3], frames[self.joint, :, 3]
+        return coal.Transform3s(turn @ self.pose.rotation, turn @ self.pose.translation + origin)
+
+
 class HullPair(NamedTuple):
-    """Column of the pair, joints that carry its two hulls, and the hulls in the link frames."""
+    """Column of the pair, and its two bodies."""
 
     column: int
-    first_joint: int
-    second_joint: int
-    first: coal.Convex
-    second: coal.Convex
+    first: Carried
+    second: Carried
 
 
 @lru_cache(maxsize=64)
-def hulls_of(arm: Arm) -> dict[str, tuple[int, coal.Convex]]:
-    """Of capsules by name the joint and the hull in its frame as :func:`.posing.link_frames` has
+def hulls_of(arm: Arm) -> dict[str, Carried]:
+    """Of capsules by name the hull in the frame of their joint as :func:`.posing.link_frames` has
     it. A capsule that is not the one fitted around its hull, such as a thicker one, has none."""
     found = {}
     for one in arm.geometry.geometryObjects:
         corners = arm.hulls.get(one.name)
         if corners is None:
             continue
-        ends = capsule_ends(one.placement, one.geometry)
-        if abs(to_segment(corners, *ends).max() - one.geometry.radius) <= _FILLED:
-            placed = in_link_frames(arm, one.parentJoint, corners)
-            found[one.name] = (one.parentJoint, convex(placed))
+        ends, radius = capsule_ends(one.placement, one.geometry), one.geometry.radius
+        farthest = to_segment(corners, *ends).max()
+        if min(abs(farthest - radius), abs(farthest - PRISM * radius)) <= _FILLED:
+            local = in_link_frames(arm, one.parentJoint, corners)
+            found[one.name] = Carried(one.parentJoint, convex(local), pin.SE3.Identity())
+    return found
+
+
+def _capsules_of(arm: Arm) -> dict[str, Carried]:
+    links, found = links_of(arm), {}
+    for name, joint, core, radius in zip(*links, strict=True):
+        pose, solid = segment_capsule(core[0], core[1], float(radius))
+        found[name] = Carried(int(joint), solid, pose)
     return found
 
 
 @lru_cache(maxsize=64)
 def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
-    """Watched pairs of capsules of one arm that both have a hull, by the name of the arm."""
-    hulls = {placed.name: hulls_of(placed.arm) for placed in scene.arms if placed.arm.hulls}
+    """Watched pairs of capsules of one arm one of which has a hull, by the name of the arm."""
+    arms = {placed.name: placed.arm for placed in scene.arms if placed.arm.hulls}
+    hulls = {name: hulls_of(arm) for name, arm in arms.items()}
+    known = {name: _capsules_of(arm) | hulls[name] for name, arm in arms.items()}
     found = defaultdict(list)
     for column, (a, b) in enumerate(scene.pairs.bodies):
         if a.owner == b.owner and a.owner in hulls:
-            known = hulls[a.owner]
-            one, other = (known.get(body.name.partition("/")[2]) for body in (a, b))
-            if one and other:
-                found[a.owner].append(HullPair(column, one[0], other[0], one[1], other[1]))
+            names = [body.name.partition("/")[2] for body in (a, b)]
+            if any(name in hulls[a.owner] for name in names):
+                found[a.owner].append(HullPair(column, *(known[a.owner][name] for name in names)))
     return dict(found)
 
 
@@ -81,11 +103,12 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
         own = q[rows, scene.columns[placed.name]].copy()
         frames = frames_of(placed.arm, placed.placement.homogeneous[:3], own)
         for n, frame in zip(rows, frames, strict=True):
-            at = [coal.Transform3s(one[:, :3], one[:, 3]) for one in frame]
             for k in np.flatnonzero(close[n]):
-                column, i, j, first, second = pairs[k]
+                column, first, second = pairs[k]
+                at = first.placed(frame), second.placed(frame)
                 result.clear()
-                gap = coal.distance(first, at[i], second, at[j], request, result) - _GJK
+                bodies = first.geometry, at[0], second.geometry, at[1]
+                gap = coal.distance(*bodies, request, result) - _GJK
                 if gap <= distance[n, column]:
                     continue
                 distance[n, column] = value = min(gap, CAP)

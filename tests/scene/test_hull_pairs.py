@@ -95,7 +95,7 @@ def test_no_distance_is_below_capsules_or_beyond_shapes(ur5, capsules_alone):
 def test_hulls_lie_in_their_capsules_and_where_the_links_are(ur5):
     scene, q = ur5
     (placed,) = scene.arms
-    joint, hull = hulls_of(placed.arm)["forearm_link_0.0"]
+    joint, hull, _ = hulls_of(placed.arm)["forearm_link_0.0"]
     corners = placed.arm.hulls["forearm_link_0.0"]
     data = placed.arm.model.createData()
     pin.forwardKinematics(placed.arm.model, data, q[0])

@@ -29,7 +29,7 @@ SPREAD = 0.12  # standard deviation of these, as share of a joint's range of at 
 WORTH_IT = 5  # of them, in which parts have to overlap for it to be asked whether they ever meet
 FLAGGED = 20  # postures in which they have to overlap before "never" counts
 MOST = 0.5  # share of postures in which a pair touches that touches at the home pose for good
-NEAR = 2e-3  # contents are near each other at this distance [m]
+NEAR = 5e-4  # contents are near each other at this distance [m]
 NEIGHBOURS = 40  # postures in which adjacent shapes are looked at
 
 

@@ -29,8 +29,8 @@ class Part:
     triangles : ndarray (T, 3, 3) or None
         What it contains, in the frame of the shape [m]; None for all of a ball, capsule or rod.
     corners : ndarray (V, 3)
-        Of the convex hull of that, in the frame of the joint [m]: none where the hull would be the
-        capsule or has no volume.
+        Of the convex hull of that, of a rod of a prism around it, in the frame of the joint [m]:
+        none where the hull would be the capsule or has no volume.
     """
 
     capsule: LinkCapsule
@@ -61,7 +61,12 @@ def parts_of(solids: pin.GeometryModel) -> list[Part]:
         if isinstance(solid, coal.Sphere):
             found.append(_whole(shape, np.zeros(3), solid.radius))
         elif isinstance(solid, coal.Capsule) or _is_rod(solid):
-            found.append(_whole(shape, np.array([0.0, 0.0, solid.halfLength]), solid.radius))
+            one = _whole(shape, np.array([0.0, 0.0, solid.halfLength]), solid.radius)
+            if not isinstance(solid, coal.Capsule):
+                corners = _corners(triangles_of(solid))
+                corners = corners @ shape.placement.rotation.T + shape.placement.translation
+                one = replace(one, corners=corners)
+            found.append(one)
         else:
             found += _pieces(shape, decompose(triangles_of(solid)))
     return found

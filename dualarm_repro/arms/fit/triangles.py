@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ..capsules import corners
 
 _SIDES = 24  # of the prism around a cylinder
+PRISM = 1.0 / math.cos(math.pi / _SIDES)  # its circumradius over the radius of the cylinder
 
 
 def triangles_of(solid: coal.CollisionGeometry) -> np.ndarray:
@@ -23,7 +24,7 @@ def triangles_of(solid: coal.CollisionGeometry) -> np.ndarray:
     """
     if isinstance(solid, coal.Cylinder):
         turn = 2.0 * math.pi * np.arange(_SIDES) / _SIDES
-        radius = solid.radius / math.cos(math.pi / _SIDES)
+        radius = solid.radius * PRISM
         rim = radius * np.column_stack([np.cos(turn), np.sin(turn)])
         ends = (np.full(_SIDES, sign * solid.halfLength) for sign in (-1.0, 1.0))
         return _hull(np.vstack([np.column_stack([rim, z]) for z in ends]))
