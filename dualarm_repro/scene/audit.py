@@ -16,7 +16,7 @@ from scipy.stats import qmc
 from ..arms import load_arm
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends, to_segment
-from ..arms.exclusions import shape_of
+from ..arms.exclusions import Evidence, shape_of
 from ..arms.fit.evidence import contacts, home_pose, watched_pairs
 from ..arms.fit.triangles import triangles_of
 from ..errors import DualArmError, UnsupportedArmError
@@ -24,6 +24,7 @@ from .bodies import PlacedArm
 from .clearance import distances
 from .scene import Scene
 
+_FOR_GOOD = (Evidence.ALWAYS, Evidence.HOME)
 _PROBES = 4000  # points of a shape by which volumes are compared
 
 
@@ -34,9 +35,9 @@ def audit(path: Path, rng: np.random.Generator, postures: int = 400) -> dict[str
     how far a vertex of a shape is outside the capsules of its shape, ``excess`` the volume of the
     capsules over that of the convex parts in them, ``clear`` how many postures
     the exact shapes call free of self-collision, ``false_alarms`` how many of these the capsules
-    flag, ``missed`` how many others they do not. Shapes that touch in every posture are part of the
-    arm and count for neither. ``home`` tells the same of the home pose. ``seconds`` of
-    the processor it took to load, which the cache shortens.
+    flag, ``missed`` how many others they do not. Shapes that touch in every posture,
+    or at the home pose and in most, are listed by the arm and count for neither. ``home`` tells the
+    same of the home pose. ``seconds`` of the processor it took to load, which the cache shortens.
     """
     begin = process_time()
     try:
@@ -143,10 +144,13 @@ def excess(arm: Arm) -> float:
 
 
 def _touching(arm: Arm, q: np.ndarray, sample: np.ndarray | None = None) -> np.ndarray:
-    """Whether exact shapes two or more joints apart touch (N,), but for those that always do."""
+    """Whether exact shapes two or more joints apart touch (N,), but for those that always do and
+    those that touch at the home pose for good, which the arm lists."""
     if arm.solids is None:
         raise UnsupportedArmError(f"arm {arm.name}: its exact shapes are not known")
-    pairs = watched_pairs(arm.solids)
+    names = [shape.name for shape in arm.solids.geometryObjects]
+    listed = {(one.first, one.second) for one in arm.exclusions or () if one.evidence in _FOR_GOOD}
+    pairs = [(i, j) for i, j in watched_pairs(arm.solids) if (names[i], names[j]) not in listed]
     found = contacts(arm.model, arm.solids, pairs, q)
     always = found if sample is None else contacts(arm.model, arm.solids, pairs, sample)
     return np.asarray(found[:, ~always.all(axis=0)].any(axis=1))
