@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import cached_property, partial
 from types import ModuleType
@@ -59,6 +59,7 @@ class Arm(JointSpace):
         robot: DHRobot | None = None,
         types: Sequence[JointType] | None = None,
         exclusions: Callable[[], tuple[Exclusion, ...] | None] | None = None,
+        hulls: Callable[[], Mapping[str, np.ndarray]] | None = None,
         solids: Callable[[], pin.GeometryModel] | None = None,
         remarks: Sequence[str] = (),
     ) -> None:
@@ -72,6 +73,7 @@ class Arm(JointSpace):
         self._flange = flange
         self._build_geometry, self._robot = geometry, robot
         self._find_exclusions, self._read_solids = exclusions, solids
+        self._find_hulls = hulls
         self._data = model.createData()
         self._chain = chain_of(name, model, self._flange)
         self.remarks = tuple(remarks)
@@ -135,6 +137,12 @@ class Arm(JointSpace):
         A capsule belongs to the shape whose name it has, up to ``.k`` of its k-th capsule.
         """
         return self._find_exclusions() if self._find_exclusions else None
+
+    @cached_property
+    def hulls(self) -> Mapping[str, np.ndarray]:
+        """Of capsules by name the corners (V, 3) of the convex hull of what they contain, in the
+        frame of their joint [m]: between the shape and the capsule."""
+        return self._find_hulls() if self._find_hulls else {}
 
     @cached_property
     def solids(self) -> pin.GeometryModel | None:

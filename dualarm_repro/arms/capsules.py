@@ -66,12 +66,12 @@ class LinkCapsule:
     end: np.ndarray
     radius: float
 
-    def inside(self, other: LinkCapsule) -> bool:
+    def inside(self, other: LinkCapsule, rounding: float = ROUNDING) -> bool:
         """Whether it lies in another one: its two end balls do, and capsules are convex."""
         if self.joint != other.joint:
             return False
         gap = to_segment(np.array([self.start, self.end]), other.start, other.end).max()
-        return bool(gap + self.radius <= other.radius + ROUNDING)
+        return bool(gap + self.radius <= other.radius + rounding)
 
 
 def not_contained(capsules: Sequence[LinkCapsule]) -> list[LinkCapsule]:

@@ -140,10 +140,10 @@ def _urdf_path(path: Path, field: str, urdf: str) -> Path:
 
 def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
     capsules: Callable[[], pin.GeometryModel] = partial(_enclosed, solids)
-    exclusions = None
+    exclusions = hulls = None
     if solids.shapes in (Shapes.FITTED, Shapes.VISUAL):
         fitted = FittedLinks(solids)
-        capsules, exclusions = fitted.geometry, fitted.exclusions
+        capsules, exclusions, hulls = fitted.geometry, fitted.exclusions, fitted.hulls
     return Arm(
         name,
         title,
@@ -152,6 +152,7 @@ def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
         capsules,
         types=urdf.types,
         exclusions=exclusions,
+        hulls=hulls,
         solids=solids.solids,
         remarks=solids.remarks,
     )

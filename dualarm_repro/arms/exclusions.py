@@ -13,16 +13,15 @@ _PART, _NUMBER = re.compile(r"\.\d+$"), re.compile(r"_\d+$")
 class Evidence(StrEnum):
     """Why a pair of shapes says nothing about self-collision.
 
-    ``always``: the shapes touch in every sampled posture; ``home``: they touch at the home pose and
-    in most postures; ``never``: they touch in none, though capsules around them do;
-    ``not needed``: a pair of capsules of shapes that touch now and then, without which every
-    sampled contact is seen as well.
+    ``adjacent``: a joint joins their links; ``always``: they touch in every sampled posture;
+    ``home``: they touch at the home pose and in most postures; ``never``: what two capsules contain
+    of them comes near in no posture, though the capsules overlap.
     """
 
+    ADJACENT = "adjacent"
     ALWAYS = "always"
     HOME = "home"
     NEVER = "never"
-    NOT_NEEDED = "not needed"
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,8 @@ class Exclusion:
         Names of the collision shapes, or of single capsules of them.
     evidence : Evidence
     touching, sampled : int
-        In how many of the sampled postures the shapes themselves touch.
+        In how many of the sampled postures the shapes themselves touch, of two capsules what they
+        contain of them.
     flagged : int
         In how many their capsules, or the two, do.
     """

@@ -1,7 +1,7 @@
 """A scene as one model of Pinocchio with its geometry, for libraries that take nothing else.
 
 The joints come in the order of the scene; obstacles are fixed to the world. The pairs are those
-that the scene watches.
+that the scene watches, and links of one arm are their hulls where the scene knows them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,11 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
+from ..arms.fit.triangles import convex
 from ..scene import FLOOR, HalfSpace, MovingArm, PlacedArm, Scene, Shape
+from ..scene.hull_pairs import hull_pairs, hulls_of
+
+_HULL = " hull"
 
 
 class WholeModel(NamedTuple):
@@ -37,6 +41,10 @@ def whole_model(scene: Scene) -> WholeModel:
                 joint, at = model.getJointId(named.names[one.parentJoint]), one.placement
             body = f"{placed.name}/{one.name}"
             geometry.addGeometryObject(pin.GeometryObject(body, joint, at, one.geometry))
+            if one.name in hulls_of(placed.arm):
+                at = pin.SE3.Identity() if one.parentJoint else placed.placement
+                hull = convex(placed.arm.hulls[one.name])
+                geometry.addGeometryObject(pin.GeometryObject(f"{body}{_HULL}", joint, at, hull))
     for name, solid in _standing(scene).items():
         shape, pose = solid.coal()
         placement = pin.SE3(np.array(pose.getRotation()), np.array(pose.getTranslation()))
@@ -45,8 +53,11 @@ def whole_model(scene: Scene) -> WholeModel:
         if isinstance(mover, MovingArm):
             _add_parked(geometry, name, mover)
     known = {one.name: k for k, one in enumerate(geometry.geometryObjects)}
-    for first, second in scene.pairs.names:
-        geometry.addCollisionPair(pin.CollisionPair(known[first], known[second]))
+    hulled = {pair.column for pairs in hull_pairs(scene).values() for pair in pairs}
+    for column, names in enumerate(scene.pairs.names):
+        hulls = (f"{name}{_HULL}" if column in hulled else name for name in names)
+        bodies = (known.get(hull, known[name]) for hull, name in zip(hulls, names, strict=True))
+        geometry.addCollisionPair(pin.CollisionPair(*bodies))
     return WholeModel(model, geometry)
 
 

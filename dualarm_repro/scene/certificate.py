@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arms.arm import Arm
+from ..arms.fit.triangles import PRISM
 from .clearance import distances
 from .hull import ConvexHull
+from .hull_pairs import hull_pairs
 from .moving import JointPath, MovingArm
 from .posing import links_of
 from .quantities import positive
@@ -175,11 +177,17 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
             lever[name] = reach(mover.arm, np.abs(mover.path.configurations).max(axis=0))
         else:
             lever[name] = np.array([[1.0, _extent(mover.shape)]])
+    arms = {placed.name: placed.arm for placed in scene.arms}
+    hulled = {pair.column for pairs in hull_pairs(scene).values() for pair in pairs}
     rate = {name: np.zeros((len(scene.pairs), table.shape[1])) for name, table in lever.items()}
     for k, (a, b) in enumerate(scene.pairs.bodies):
         if a.owner == b.owner:
             low, high = sorted((a, b), key=lambda body: body.joint or 0)
             rate[a.owner][k, low.joint :] = lever[a.owner][high.link, low.joint :]
+            if k in hulled:  # corners of a hull are farther from an axis than the core
+                turning = ~arms[a.owner].slides[low.joint : high.joint]
+                radius = PRISM * scene.bodies.radius[high.row]
+                rate[a.owner][k, low.joint : high.joint] += radius * turning
         else:
             for body in (a, b):
                 if body.owner in rate:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .hull_pairs import refine
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
 from .placement import place
 from .quantities import array_of
@@ -106,6 +107,7 @@ def _fill(
             match sort:
                 case "capsule":
                     capsules_capsules(*cores, pairs, out, points)
+                    refine(scene, q[block], out, points)
                 case "box":
                     capsules_boxes(*cores, placed.boxes, bodies.half, pairs, out, points)
                 case "plane":

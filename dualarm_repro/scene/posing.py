@@ -46,6 +46,16 @@ def links_of(arm: Arm) -> Links:
     )
 
 
+def in_link_frames(arm: Arm, joint: int, points: np.ndarray) -> np.ndarray:
+    """Points (V, 3) given in the frame that the model has of a joint, in that of
+    :func:`link_frames`."""
+    data, q = arm.model.createData(), pin.neutral(arm.model)
+    pin.forwardKinematics(arm.model, data, q)
+    frame, pose = frames_of(arm, np.eye(3, 4), q[np.newaxis])[0, joint], data.oMi[joint]
+    found: np.ndarray = (points @ pose.rotation.T + pose.translation - frame[:, 3]) @ frame[:, :3]
+    return found
+
+
 def frames_of(arm: Arm, base: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Frames (N, n+1, 3, 4) of the base (3, 4) and the joints of any arm for q (N, n), see
     :func:`link_frames`; a prismatic joint moves its frame along z."""

@@ -6,7 +6,7 @@ import pinocchio as pin
 import pytest
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.scene.audit import audit, fk_error, outside
+from dualarm_repro.scene.audit import audit, excess, fk_error, outside
 
 PLATE = "<collision><geometry><box size='0.3 0.2 0.1'/></geometry></collision>"
 JOINT = (
@@ -60,6 +60,19 @@ def test_wrong_kinematics_and_small_capsules_are_seen(urdf):
         return made
 
     assert 0.005 < outside(arm.reshaped(smaller)) < 0.011
+
+
+def test_a_capsule_of_the_radius_of_a_rod_contains_it(tmp_path):
+    rod = PLATE.replace("<box size='0.3 0.2 0.1'/>", "<cylinder radius='0.05' length='0.6'/>")
+    path = tmp_path / "rod.urdf"
+    text = f"<link name='l0'/><link name='l1'>{rod}</link>{JOINT.format(0, 'revolute', 1, 0.4)}"
+    path.write_text(f"<robot name='r'>{text}</robot>", encoding="utf-8")
+    assert outside(load_arm(path)) <= 1e-12
+    assert excess(load_arm(path)) == pytest.approx(1.0 + 4.0 / 3.0 * 0.05 / 0.6, rel=0.03)
+
+
+def test_capsules_are_larger_than_the_parts_in_them(urdf):
+    assert 1.2 < excess(load_arm(urdf())) < 3.0
 
 
 def test_lost_contacts_are_seen(urdf, monkeypatch):

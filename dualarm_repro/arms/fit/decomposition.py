@@ -11,12 +11,22 @@ from .capsule_kernels import covered, cut, refined, smallest
 
 #: Most capsules around a shape, and the share of the volume of the first one that each further one
 #: has to save.
-COARSE, FINE = (10, 0.015), (16, 0.006)
+MOST, SAVING = 10, 0.015
 _PLACES = ((0.15,), (0.3,), (0.5,), (0.7,), (0.85,), (1 / 3, 2 / 3), (0.25, 0.5, 0.75))
 _POINTS = 500  # of the surface, by which the cuts are chosen
 _PROBES = 4000  # of space, by which volumes are compared
+_MANY = 20_000  # points to look at for the farthest
 _FEWEST = 8  # points on each side of a cut
 _LAP = 0.03  # share of the height by which the parts of a trial cut overlap
+
+
+class Piece(NamedTuple):
+    """A capsule (start, end, radius) and the part of the surface (T, 3, 3) that it contains."""
+
+    start: np.ndarray
+    end: np.ndarray
+    radius: float
+    triangles: np.ndarray
 
 
 class Cut(NamedTuple):
@@ -32,11 +42,8 @@ class Cut(NamedTuple):
 _NO_CUT = Cut(0.0, np.zeros(3), (), ())
 
 
-def decompose(
-    triangles: np.ndarray, most: int = COARSE[0], saving: float = COARSE[1]
-) -> list[tuple[np.ndarray, np.ndarray, float]]:
-    """Capsules (start, end, radius) whose union contains the triangles (T, 3, 3) and what they
-    enclose.
+def decompose(triangles: np.ndarray, most: int = MOST, saving: float = SAVING) -> list[Piece]:
+    """Capsules whose union contains the triangles (T, 3, 3) and what they enclose.
 
     The shape is cut by planes across its main axes, each time where the union of the new capsules
     is the smallest, until a cut saves less than ``saving`` of the volume of the first capsule for
@@ -63,7 +70,7 @@ def decompose(
             for piece, own in zip(pieces, planes.parts, strict=True)
             if len(piece)
         ]
-    return [around(part.reshape(-1, 3)) for part, _ in leaves]
+    return [Piece(*around(part.reshape(-1, 3)), part) for part, _ in leaves]
 
 
 def _cut_apart(triangles: np.ndarray, planes: Cut) -> list[np.ndarray]:
@@ -92,12 +99,13 @@ def main_axes(points: np.ndarray) -> np.ndarray:
 
 
 def extreme(points: np.ndarray) -> np.ndarray:
-    """Of points (N, 3) those that reach farthest in 200 directions."""
+    """Of points (N, 3), of very many of a share, those that reach farthest in 200 directions."""
+    points = points[:: 1 + len(points) // _MANY]
     k = np.arange(200) + 0.5
     z, turn = 1.0 - k / 100.0, np.pi * (1.0 + 5.0**0.5) * k
     across = np.sqrt(1.0 - z * z)
     directions = np.column_stack([across * np.cos(turn), across * np.sin(turn), z])
-    return points[np.unique((points @ directions.T).argmax(axis=0))]
+    return points[np.unique((directions @ points.T).argmax(axis=1))]
 
 
 def surface_points(triangles: np.ndarray, count: int) -> np.ndarray:

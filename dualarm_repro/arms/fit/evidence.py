@@ -1,41 +1,40 @@
 """Which pairs say nothing about self-collision: judged by the exact shapes in sampled postures.
 
 The rule for shapes is that of the default self-collision matrix of MoveIt (I. A. Sucan and
-S. Chitta): pairs that touch always, or never, are left out. Here "never" needs evidence: capsules
-of the pair have to overlap, with the shapes apart, in many of the postures. Of the other pairs
-those capsules are left out that raise many false alarms and are not needed: in every sampled
-posture in which the shapes touch, or nearly do, other capsules of the pair overlap too.
+S. Chitta): pairs that are adjacent, or touch always, or never, are left out. "Never" is judged of
+two capsules and what they contain of the shapes: the capsules have to overlap in many of the
+postures, and their contents must not come near each other in any. A pair whose contents were seen
+in contact is never left out, and its capsules overlap whenever the contents do.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
+import coal
 import numpy as np
 import pinocchio as pin
 
+from ..capsules import geometry_of
 from ..exclusions import Evidence, Exclusion, shape_of
+from .parts import Part
+from .triangles import convex
 
-SAMPLES = 2000  # postures
-FLAGGED = 40  # of them, in which a pair has to raise a false alarm before "never" counts
+SAMPLES = 2000  # postures of the whole arm
+CLOSER = 1000  # postures of one pair, about those in which its parts overlap
+SPREAD = 0.12  # standard deviation of these, as share of a joint's range of at most one turn
+WORTH_IT = 5  # of them, in which parts have to overlap for it to be asked whether they ever meet
+FLAGGED = 20  # postures in which they have to overlap before "never" counts
 MOST = 0.5  # share of postures in which a pair touches that touches at the home pose for good
-NOISY = 0.005  # share of postures in which a pair that is watched may raise a false alarm
-NEAR = 3e-3  # shapes nearly touch at this distance [m]
+NEAR = 5e-4  # contents are near each other at this distance [m]
+NEIGHBOURS = 40  # postures in which adjacent shapes are looked at
 
 
-class Judged(NamedTuple):
-    """Pairs left out, the shapes of which other pairs still raise many false alarms, and the share
-    of free postures in which any does."""
-
-    exclusions: list[Exclusion]
-    noisy: set[str]
-    alarms: float
-
-
-def judge(model: pin.Model, solids: pin.GeometryModel, capsules: pin.GeometryModel) -> Judged:
-    """Pairs of shapes and of capsules that are left out, among those two or more joints apart.
+def judge(model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Part]) -> list[Exclusion]:
+    """Pairs of shapes and of capsules that are left out.
 
     Parameters
     ----------
@@ -43,68 +42,194 @@ def judge(model: pin.Model, solids: pin.GeometryModel, capsules: pin.GeometryMod
         Of the chain; its limits are those of the postures, a turn where they are infinite.
     solids
         The exact shapes.
-    capsules
-        Those around them, named ``shape`` or ``shape.k``.
+    parts
+        The capsules around them, with what each contains.
     """
-    pairs, found, noisy = watched_pairs(solids), list[Exclusion](), set[str]()
+    found = _adjacent(model, solids)
+    pairs = watched_pairs(solids)
     if not pairs:
-        return Judged(found, noisy, 0.0)
-    q = postures(model, SAMPLES)
-    near = contacts(model, solids, pairs, q, NEAR)
-    touching = near.copy()
-    touching[near.any(axis=1)] = contacts(model, solids, pairs, q[near.any(axis=1)])
-    home = contacts(model, solids, pairs, home_pose(model)[np.newaxis])[0]
+        return found
+    q, home = postures(model, SAMPLES), home_pose(model)[np.newaxis]
+    of_shape = defaultdict(list)
+    for part in parts:
+        of_shape[shape_of(part.capsule.name)].append(part)
+    bodies = {name: _Bodies.of(own) for name, own in of_shape.items()}
     names = [shape.name for shape in solids.geometryObjects]
-    flagged, struck = (np.zeros(len(q), dtype=bool) for _ in range(2))
-    for k, (of_pair, hits) in enumerate(_overlaps(model, names, capsules, pairs, q)):
-        first, second = (names[i] for i in pairs[k])
-        count, alarms = int(touching[:, k].sum()), int(hits.any(axis=1).sum())
-        if count == len(q):
-            evidence = Evidence.ALWAYS
-        elif home[k] and count > MOST * len(q):
-            evidence = Evidence.HOME
-        elif count == 0 and not home[k] and alarms >= FLAGGED:
-            evidence = Evidence.NEVER
-        else:
-            needed = near[:, k] if near[:, k].mean() <= MOST else touching[:, k]
-            dropped = _not_needed(hits, needed, touching[:, k])
-            for c in dropped:
-                both = count, len(q), int(hits[:, c].sum())
-                found.append(Exclusion(*of_pair[c], Evidence.NOT_NEEDED, *both))
-            kept = np.delete(hits, dropped, axis=1).any(axis=1)
-            if (kept & ~touching[:, k]).mean() > NOISY:
-                noisy.update((first, second))
-            flagged |= kept
-            struck |= touching[:, k]
+    middles, radii = _balls(model, solids, [of_shape[name] for name in names], q)
+    for k, (i, j) in enumerate(pairs):
+        apart = np.linalg.norm(middles[:, i] - middles[:, j], axis=1) > radii[i] + radii[j]
+        if apart.all():
             continue
-        found.append(Exclusion(first, second, evidence, count, len(q), alarms))
-    return Judged(found, noisy, float(flagged[~struck].mean()) if not struck.all() else 0.0)
+        pair = PairOfShapes(model, solids, (i, j), bodies[names[i]], bodies[names[j]])
+        hits = pair.overlaps(q, ~apart)
+        alarms = hits.any(axis=1)
+        count = int(pair.contacts(q[alarms]).sum())
+        if count == len(q) or (count > MOST * len(q) and pair.contacts(home)[0]):
+            evidence = Evidence.ALWAYS if count == len(q) else Evidence.HOME
+            number = int(alarms.sum())
+            found.append(Exclusion(names[i], names[j], evidence, count, len(q), number))
+        else:
+            found += pair.never(q, hits, np.random.default_rng(k))
+    return found
 
 
-def _not_needed(hits: np.ndarray, needed: np.ndarray, touching: np.ndarray) -> list[int]:
-    """Columns of ``hits`` (N, C) that raise false alarms, worst first, until next to none is left,
-    as long as the others hit in every posture that is ``needed`` (N,) and that any hits."""
-    false = hits & ~touching[:, None]
-    covered, alarms, dropped = hits[needed].sum(axis=1), false.sum(axis=1), []
-    for c in np.argsort(-false.sum(axis=0), kind="stable"):
-        if np.count_nonzero(alarms) <= 0.2 * NOISY * len(hits):
-            break
-        rest = covered - hits[needed, c]
-        if false[:, c].any() and (rest[covered > 0] > 0).all():
-            covered, alarms = rest, alarms - false[:, c]
-            dropped.append(int(c))
-    return dropped
+class _Bodies(NamedTuple):
+    """The parts of one shape, the hull of each, and the hull of them all."""
+
+    parts: list[Part]
+    hulls: list[pin.GeometryObject]
+    whole: pin.GeometryObject
+
+    @classmethod
+    def of(cls, parts: list[Part]) -> _Bodies:
+        hulls = list(geometry_of(part.capsule for part in parts).geometryObjects)
+        for one, part in zip(hulls, parts, strict=True):
+            if len(part.corners):  # else the capsule
+                one.geometry, one.placement = convex(part.corners), pin.SE3.Identity()
+        whole = parts[0].shape.copy()
+        if all(len(part.corners) for part in parts):
+            corners = np.concatenate([part.corners for part in parts])
+            whole.geometry, whole.placement = convex(corners), pin.SE3.Identity()
+        elif len(parts) == 1:
+            whole = hulls[0]
+        else:
+            whole.geometry, whole.placement = coal.Halfspace(), pin.SE3.Identity()
+        return cls(parts, hulls, whole)
+
+
+class PairOfShapes:
+    """Two shapes of one arm, and every pair of a part of one and a part of the other."""
+
+    def __init__(
+        self,
+        model: pin.Model,
+        solids: pin.GeometryModel,
+        pair: tuple[int, int],
+        first: _Bodies,
+        second: _Bodies,
+    ) -> None:
+        self._model, self._solids, self._pair = model, solids, pair
+        self._parts = [(a, b) for a in first.parts for b in second.parts]
+        self._hulls = _geometry([*first.hulls, *second.hulls])
+        self._whole = _geometry([first.whole, second.whole])
+        count = len(first.parts)
+        self._rows = [(a, count + b) for a in range(count) for b in range(len(second.parts))]
+        self.names = [(a.capsule.name, b.capsule.name) for a, b in self._parts]
+        joints = sorted(solids.geometryObjects[k].parentJoint for k in pair)
+        self._moving = slice(joints[0], joints[1])  # only these joints move one against the other
+
+    def overlaps(self, q: np.ndarray, among: np.ndarray | None = None) -> np.ndarray:
+        """Whether hulls touch, of each pair in each posture (N, C), looked at ``among`` (N,)."""
+        found = np.zeros((len(q), len(self._parts)), dtype=bool)
+        near = np.ones(len(q), dtype=bool) if among is None else among.copy()
+        near[near] = contacts(self._model, self._whole, [(0, 1)], q[near])[:, 0]
+        found[near] = contacts(self._model, self._hulls, self._rows, q[near])
+        return found
+
+    def contacts(self, q: np.ndarray, near: float = 0.0) -> np.ndarray:
+        """Whether the shapes come nearer than ``near`` [m] in each posture (N,)."""
+        return contacts(self._model, self._solids, [self._pair], q, near)[:, 0]
+
+    def never(self, q: np.ndarray, hits: np.ndarray, rng: np.random.Generator) -> list[Exclusion]:
+        """Pairs of capsules that overlap often, though what they contain never comes near."""
+        asked = hits.sum(axis=0) >= WORTH_IT
+        self._unask(q, hits, asked)
+        closer = self._closer(q[hits[:, asked].any(axis=1)], rng)
+        again = self.overlaps(closer)
+        self._unask(closer, again, asked)
+        both = np.vstack([hits, again])
+        counts = both.sum(axis=0)
+        return [
+            Exclusion(*self.names[c], Evidence.NEVER, 0, len(both), int(counts[c]))
+            for c in np.flatnonzero(asked & (counts >= FLAGGED))
+        ]
+
+    def _closer(self, q: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+        """Postures about these, with the joints moved that move the pair."""
+        if not len(q):
+            return q
+        made = q[rng.integers(len(q), size=CLOSER)]
+        lower, upper = usual_range(self._model)
+        sigma = SPREAD * np.minimum(upper - lower, 2.0 * np.pi)
+        moved = np.clip(made + sigma * rng.normal(size=made.shape), lower, upper)
+        made[:, self._moving] = moved[:, self._moving]
+        return made
+
+    def _unask(self, q: np.ndarray, hits: np.ndarray, asked: np.ndarray) -> None:
+        """Clear ``asked`` (C,) for parts whose contents come near in a posture in which they
+        overlap."""
+        data = self._model.createData()
+        request = coal.CollisionRequest()
+        request.security_margin = NEAR
+
+        def near(*bodies: tuple[coal.CollisionGeometry, pin.GeometryObject]) -> bool:
+            placed = []
+            for geometry, shape in bodies:
+                at = data.oMi[shape.parentJoint] * shape.placement
+                placed += [geometry, coal.Transform3s(at.rotation, at.translation)]
+            return bool(coal.collide(*placed, request, coal.CollisionResult()))
+
+        shapes = [self._solids.geometryObjects[k] for k in self._pair]
+        for posture, row in zip(q, hits, strict=True):
+            if not (row & asked).any():
+                continue
+            pin.forwardKinematics(self._model, data, posture)
+            if near(*((shape.geometry, shape) for shape in shapes)):
+                for c in np.flatnonzero(row & asked):
+                    asked[c] = not near(*((one.content, one.shape) for one in self._parts[c]))
+
+
+def _balls(
+    model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Sequence[Part]], q: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Middles (N, S, 3) and radii (S,) of balls around the capsules of each shape [m]."""
+    joints = [shape.parentJoint for shape in solids.geometryObjects]
+    ends = [[e for part in own for e in (part.capsule.start, part.capsule.end)] for own in parts]
+    middles = np.array([np.mean(own, axis=0) for own in ends])
+    radii = [
+        max(np.linalg.norm(e - middle) for e in own) + max(part.capsule.radius for part in among)
+        for own, middle, among in zip(ends, middles, parts, strict=True)
+    ]
+    data, found = model.createData(), np.empty((len(q), len(joints), 3))
+    for row, posture in zip(found, q, strict=True):
+        pin.forwardKinematics(model, data, posture)
+        turns = np.array([pose.rotation for pose in data.oMi])[joints]
+        row[:] = np.einsum("sij,sj->si", turns, middles)
+        row += np.array([pose.translation for pose in data.oMi])[joints]
+    return found, np.array(radii)
+
+
+def _geometry(shapes: Sequence[pin.GeometryObject]) -> pin.GeometryModel:
+    found = pin.GeometryModel()
+    for k, one in enumerate(shapes):
+        made = pin.GeometryObject(f"{k}", one.parentJoint, one.placement, one.geometry)
+        found.addGeometryObject(made)
+    return found
+
+
+def _adjacent(model: pin.Model, solids: pin.GeometryModel) -> list[Exclusion]:
+    """Shapes of neighbouring joints that touch in some posture."""
+    pairs = _pairs(solids, lambda apart: apart == 1)
+    if not pairs:
+        return []
+    counts = contacts(model, solids, pairs, postures(model, NEIGHBOURS)).sum(axis=0)
+    names = [shape.name for shape in solids.geometryObjects]
+    return [
+        Exclusion(names[i], names[j], Evidence.ADJACENT, int(count), NEIGHBOURS, NEIGHBOURS)
+        for (i, j), count in zip(pairs, counts, strict=True)
+        if count
+    ]
 
 
 def watched_pairs(solids: pin.GeometryModel) -> list[tuple[int, int]]:
     """Indices of shapes whose joints are two or more apart."""
+    return _pairs(solids, lambda apart: apart > 1)
+
+
+def _pairs(solids: pin.GeometryModel, wanted: Callable[[int], bool]) -> list[tuple[int, int]]:
     joints = [shape.parentJoint for shape in solids.geometryObjects]
-    return [
-        (i, j)
-        for i in range(len(joints))
-        for j in range(i + 1, len(joints))
-        if abs(joints[i] - joints[j]) > 1
-    ]
+    both = combinations(range(len(joints)), 2)
+    return [(i, j) for i, j in both if wanted(abs(joints[i] - joints[j]))]
 
 
 def usual_range(model: pin.Model) -> tuple[np.ndarray, np.ndarray]:
@@ -147,24 +272,3 @@ def contacts(
                 row[k] = results[k].isCollision()
     shapes.removeAllCollisionPairs()
     return found
-
-
-def _overlaps(
-    model: pin.Model,
-    names: Sequence[str],
-    capsules: pin.GeometryModel,
-    pairs: Sequence[tuple[int, int]],
-    q: np.ndarray,
-) -> list[tuple[list[tuple[str, str]], np.ndarray]]:
-    """Of every pair of shapes its pairs of capsules by name, and whether these overlap (N, C)."""
-    of_shape = defaultdict(list)
-    for c, capsule in enumerate(capsules.geometryObjects):
-        of_shape[shape_of(capsule.name)].append(c)
-    groups = [[(a, b) for a in of_shape[names[i]] for b in of_shape[names[j]]] for i, j in pairs]
-    hits = contacts(model, capsules, [pair for group in groups for pair in group], q)
-    ends = np.cumsum([len(group) for group in groups])[:-1]
-    called = [one.name for one in capsules.geometryObjects]
-    return [
-        ([(called[a], called[b]) for a, b in group], part)
-        for group, part in zip(groups, np.split(hits, ends, axis=1), strict=True)
-    ]

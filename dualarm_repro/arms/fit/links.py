@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Collection
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -17,19 +16,13 @@ import pinocchio as pin
 from ...cache_folder import cache_folder
 from ...errors import DataFileError, DualArmError
 from ...sources import graph
-from ..capsules import LinkCapsule, geometry_of, not_contained
+from ..capsules import LinkCapsule, geometry_of
 from ..exclusions import Evidence, Exclusion
-from .decomposition import COARSE, FINE, decompose
 from .evidence import judge
-from .triangles import triangles_of
+from .parts import parts_of
 
 if TYPE_CHECKING:
     from ..urdf import URDF
-
-
-#: Share of free postures with a false alarm up to which no more capsules are made, and the share of
-#: false alarms that may be left for these to be worth their cost.
-ENOUGH, WORTH = 0.05, 0.7
 
 
 class FittedLinks:
@@ -48,6 +41,11 @@ class FittedLinks:
             LinkCapsule(name, joint, np.array(start), np.array(end), radius)
             for name, joint, start, end, radius in self._found["capsules"]
         )
+
+    def hulls(self) -> dict[str, np.ndarray]:
+        """Of capsules by name the corners (V, 3) of the hull of what they contain, in the frame of
+        their joint [m]."""
+        return {name: np.array(corners) for name, corners in self._found["hulls"].items()}
 
     def exclusions(self) -> tuple[Exclusion, ...]:
         """Pairs of shapes that are not watched."""
@@ -74,20 +72,18 @@ class FittedLinks:
         return found
 
     def _compute(self, solids: pin.GeometryModel) -> dict[str, Any]:
-        capsules = fitted(solids)
-        judged = judge(self._urdf.model, solids, geometry_of(capsules))
-        if judged.alarms > ENOUGH:
-            finer = fitted(solids, judged.noisy)
-            again = judge(self._urdf.model, solids, geometry_of(finer))
-            if again.alarms < WORTH * judged.alarms:
-                capsules, judged = finer, again
+        parts = parts_of(solids)
         return {
             "capsules": [
-                [c.name, c.joint, c.start.tolist(), c.end.tolist(), c.radius] for c in capsules
+                [c.name, c.joint, c.start.tolist(), c.end.tolist(), c.radius]
+                for c in (part.capsule for part in parts)
             ],
+            "hulls": {
+                part.capsule.name: part.corners.tolist() for part in parts if len(part.corners)
+            },
             "exclusions": [
                 [one.first, one.second, one.evidence.value, one.touching, one.sampled, one.flagged]
-                for one in judged.exclusions
+                for one in judge(self._urdf.model, solids, parts)
             ],
         }
 
@@ -101,49 +97,12 @@ class FittedLinks:
         return folder / "arms" / f"{key[:32]}.json"
 
 
-def fitted(solids: pin.GeometryModel, finer: Collection[str] = ()) -> list[LinkCapsule]:
-    """Capsules around every shape; a ball and a capsule stay as they are, and a long cylinder keeps
-    its radius and its axis.
-
-    Parameters
-    ----------
-    finer
-        Names of shapes that get up to twice as many capsules.
-
-    Raises
-    ------
-    UnsupportedArmError
-        A shape is neither of these, nor a box, a cylinder or a mesh.
-    """
-    found = []
-    for shape in solids.geometryObjects:
-        solid = shape.geometry
-        if isinstance(solid, coal.Sphere):
-            cores = [(np.zeros(3), np.zeros(3), solid.radius)]
-        elif isinstance(solid, coal.Capsule) or _is_rod(solid):
-            half = np.array([0.0, 0.0, solid.halfLength])
-            cores = [(-half, half, solid.radius)]
-        else:
-            fineness = FINE if shape.name in finer else COARSE
-            cores = decompose(triangles_of(solid), *fineness)
-        for k, (start, end, radius) in enumerate(cores):
-            name = shape.name if len(cores) == 1 else f"{shape.name}.{k}"
-            ends = shape.placement.act(start), shape.placement.act(end)
-            found.append(LinkCapsule(name, shape.parentJoint, *ends, radius))
-    return not_contained(found)
-
-
-def _is_rod(solid: coal.CollisionGeometry) -> bool:
-    """Whether the ends of a capsule around a cylinder add at most a quarter to its volume."""
-    return isinstance(solid, coal.Cylinder) and 4.0 / 3.0 * solid.radius <= 0.5 * solid.halfLength
-
-
 def _read(path: Path) -> dict[str, Any] | None:
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    whole = isinstance(found, dict) and {"capsules", "exclusions"} <= found.keys()
+    whole = isinstance(found, dict) and {"capsules", "hulls", "exclusions"} <= found.keys()
     return found if whole else None
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from dualarm_repro.arms.capsules import to_segment
 from dualarm_repro.arms.fit.capsule_kernels import covered, cut
-from dualarm_repro.arms.fit.decomposition import FINE, around, decompose
+from dualarm_repro.arms.fit.decomposition import around, decompose
 from dualarm_repro.arms.fit.triangles import triangles_of
 
 
@@ -24,7 +24,7 @@ def elbow():
 def share_inside(capsules, probes):
     """Share of points that lie in some capsule."""
     inside = np.zeros(len(probes), dtype=bool)
-    for start, end, radius in capsules:
+    for start, end, radius, _ in capsules:
         covered(probes, np.array([*start, *end, radius]), inside)
     return inside.mean()
 
@@ -45,7 +45,7 @@ def test_surface_and_vertices_are_inside(triangles, rng):
     capsules = decompose(triangles)
     assert len(capsules) <= 10
     points = np.vstack([dense(triangles, rng), triangles.reshape(-1, 3)])
-    gap = np.min([to_segment(points, a, b) - radius for a, b, radius in capsules], axis=0)
+    gap = np.min([to_segment(points, a, b) - radius for a, b, radius, _ in capsules], axis=0)
     assert gap.max() <= 1e-12
 
 
@@ -58,7 +58,7 @@ def test_more_capsules_leave_less_room(rng):
         for capsules in (
             decompose(triangles, 1, 0.1),
             decompose(triangles),
-            decompose(triangles, *FINE),
+            decompose(triangles, 16, 0.006),
         )
     ]
     assert volumes[0] > 3 * volumes[1]
@@ -84,20 +84,30 @@ def test_a_cut_keeps_the_surface(rng):
     triangles = elbow()
     normal = np.array([0.6, 0.0, 0.8])
 
-    def area(part):
-        edges = part[:, 1:] - part[:, :1]
-        return 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()
-
     below, above = cut(triangles, normal, 0.21)
     assert (below @ normal).max() <= 0.21 + 1e-12
     assert (above @ normal).min() >= 0.21 - 1e-12
-    assert area(below) + area(above) == pytest.approx(area(triangles), rel=1e-12)
+    assert _area(below) + _area(above) == pytest.approx(_area(triangles), rel=1e-12)
+
+
+def test_each_capsule_contains_its_part_and_the_parts_are_the_surface():
+    triangles = elbow()
+    pieces = decompose(triangles)
+    for start, end, radius, own in pieces:
+        assert to_segment(own.reshape(-1, 3), start, end).max() <= radius + 1e-12
+    area = sum(_area(piece.triangles) for piece in pieces)
+    assert area == pytest.approx(_area(triangles), rel=1e-9)
+
+
+def _area(part):
+    edges = part[:, 1:] - part[:, :1]
+    return 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()
 
 
 @pytest.mark.parametrize(
     "points", [np.zeros((1, 3, 3)), np.array([[[0, 0, 0], [1, 0, 0], [2, 0, 0]]])]
 )
 def test_what_has_no_area(points):
-    (start, end, radius), *_ = decompose(points.astype(float))
+    (start, end, radius, _), *_ = decompose(points.astype(float))
     assert np.isfinite([*start, *end, radius]).all()
     assert to_segment(points.reshape(-1, 3), start, end).max() <= radius + 1e-12

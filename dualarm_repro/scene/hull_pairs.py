@@ -1,0 +1,117 @@
+"""Distances of links of one arm by the convex hulls of what their capsules contain.
+
+Two capsules and the hulls within them both give a lower bound on the distance of the shapes. Of
+d = max(d_capsules, min(d_hulls, CAP)) the hulls are looked at only where d_capsules < CAP, where
+it is continuous, and as each of its terms it changes no faster than the
+bodies move.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from functools import lru_cache
+from typing import NamedTuple
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+from ..arms.arm import Arm
+from ..arms.capsules import capsule_ends, segment_capsule, to_segment
+from ..arms.fit.triangles import PRISM, convex
+from .posing import frames_of, in_link_frames, links_of
+from .scene import Scene
+
+CAP = 0.03  # hulls farther apart [m] count as this far
+_GJK = 1e-6  # by how much coal may overstate a distance [m]
+_FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
+
+
+class Carried(NamedTuple):
+    """A hull, or a capsule that has none, at a pose in the frame of the joint that carries it."""
+
+    joint: int
+    geometry: coal.CollisionGeometry
+    pose: pin.SE3
+
+    def placed(self, frames: np.ndarray) -> coal.Transform3s:
+        """Where it is, for frames (J, 3, 4)."""
+        turn, origin = frames[self.joint, :, :3], frames[self.joint, :, 3]
+        return coal.Transform3s(turn @ self.pose.rotation, turn @ self.pose.translation + origin)
+
+
+class HullPair(NamedTuple):
+    """Column of the pair, and its two bodies."""
+
+    column: int
+    first: Carried
+    second: Carried
+
+
+@lru_cache(maxsize=64)
+def hulls_of(arm: Arm) -> dict[str, Carried]:
+    """Of capsules by name the hull in the frame of their joint as :func:`.posing.link_frames` has
+    it. A capsule that is not the one fitted around its hull, such as a thicker one, has none."""
+    found = {}
+    for one in arm.geometry.geometryObjects:
+        corners = arm.hulls.get(one.name)
+        if corners is None:
+            continue
+        ends, radius = capsule_ends(one.placement, one.geometry), one.geometry.radius
+        farthest = to_segment(corners, *ends).max()
+        if min(abs(farthest - radius), abs(farthest - PRISM * radius)) <= _FILLED:
+            local = in_link_frames(arm, one.parentJoint, corners)
+            found[one.name] = Carried(one.parentJoint, convex(local), pin.SE3.Identity())
+    return found
+
+
+def _capsules_of(arm: Arm) -> dict[str, Carried]:
+    links, found = links_of(arm), {}
+    for name, joint, core, radius in zip(*links, strict=True):
+        pose, solid = segment_capsule(core[0], core[1], float(radius))
+        found[name] = Carried(int(joint), solid, pose)
+    return found
+
+
+@lru_cache(maxsize=64)
+def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
+    """Watched pairs of capsules of one arm one of which has a hull, by the name of the arm."""
+    arms = {placed.name: placed.arm for placed in scene.arms if placed.arm.hulls}
+    hulls = {name: hulls_of(arm) for name, arm in arms.items()}
+    known = {name: _capsules_of(arm) | hulls[name] for name, arm in arms.items()}
+    found = defaultdict(list)
+    for column, (a, b) in enumerate(scene.pairs.bodies):
+        if a.owner == b.owner and a.owner in hulls:
+            names = [body.name.partition("/")[2] for body in (a, b)]
+            if any(name in hulls[a.owner] for name in names):
+                found[a.owner].append(HullPair(column, *(known[a.owner][name] for name in names)))
+    return dict(found)
+
+
+def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarray) -> None:
+    """Raise the distances (N, P) of capsules where hulls show more, and move the points and
+    normals of ``witness`` (N, P, 3, 3), unless it is empty, to the hulls."""
+    request, result = coal.DistanceRequest(), coal.DistanceResult()
+    for placed in scene.arms:
+        pairs = hull_pairs(scene).get(placed.name)
+        if not pairs:
+            continue
+        close = distance[:, [pair.column for pair in pairs]] < CAP
+        rows = np.flatnonzero(close.any(axis=1))
+        if not len(rows):
+            continue
+        own = q[rows, scene.columns[placed.name]].copy()
+        frames = frames_of(placed.arm, placed.placement.homogeneous[:3], own)
+        for n, frame in zip(rows, frames, strict=True):
+            for k in np.flatnonzero(close[n]):
+                column, first, second = pairs[k]
+                at = first.placed(frame), second.placed(frame)
+                result.clear()
+                bodies = first.geometry, at[0], second.geometry, at[1]
+                gap = coal.distance(*bodies, request, result) - _GJK
+                if gap <= distance[n, column]:
+                    continue
+                distance[n, column] = value = min(gap, CAP)
+                if witness.size:
+                    p, normal = result.getNearestPoint1(), result.normal
+                    witness[n, column] = p, p + value * normal, normal
