@@ -128,6 +128,7 @@ def test_arena_judges_chosen_planners_and_stores_nothing(dualarm):
         (("--method", "no-such"), "no-such"),
         (("--kind", "sea"), "sea"),
         (("--most", "3"), "--most"),
+        (("--method", "rrt-connect", "--jobs", "2"), "--jobs"),
     ],
 )
 def test_wrong_options_of_the_arena_end_in_one_line(dualarm, arguments, told):
