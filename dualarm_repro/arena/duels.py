@@ -8,7 +8,7 @@ intervals of both shares, joined with the correlation of the outcomes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import sqrt
 from typing import NamedTuple
 
@@ -50,13 +50,10 @@ class Duel(NamedTuple):
             return "wins"
         return "loses" if self.difference.high < 0.0 else "undecided"
 
-    def __str__(self) -> str:
-        first, second = ("{:.0%} [{:.0%}, {:.0%}]".format(*share) for share in self.shares)
-        away = "{:+.0%} [{:+.0%}, {:+.0%}]".format(*self.difference)
-        return (
-            f"{self.first} {first} against {self.second} {second} of {self.tasks} tasks, "
-            f"difference {away}: {self.verdict}"
-        )
+    @property
+    def told(self) -> str:
+        """The difference with its interval."""
+        return "{:+.0%} [{:+.0%}, {:+.0%}]".format(*self.difference)
 
 
 def successes(rows: pd.DataFrame) -> pd.DataFrame:
@@ -108,6 +105,23 @@ def halves(rows: pd.DataFrame, papers: Sequence[str] = PAPERS) -> dict[str, Duel
     return found
 
 
+def compared(met: Mapping[str, Duel]) -> pd.DataFrame:
+    """The halves as a table, one line a kind."""
+    found = {}
+    for kind, one in met.items():
+        ours, others = ("{:.0%} [{:.0%}, {:.0%}]".format(*share) for share in one.shares)
+        found[kind] = {
+            "tasks": one.tasks,
+            "best of the documents'": one.first,
+            "does": ours,
+            "best of today's": one.second,
+            "does ": others,
+            "difference": one.told,
+            "the documents' best": one.verdict,
+        }
+    return pd.DataFrame.from_dict(found, orient="index").rename_axis("tasks of kind")
+
+
 def against(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     """Every method against one: tasks that only one of the two does, difference, and verdict."""
     found = {}
@@ -116,7 +130,7 @@ def against(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
         found[name] = {
             "does alone": one.only_first,
             f"{reference} alone": one.only_second,
-            "difference": "{:+.0%} [{:+.0%}, {:+.0%}]".format(*one.difference),
+            "difference": one.told,
             f"against {reference}": one.verdict,
         }
     return pd.DataFrame.from_dict(found, orient="index").rename_axis("method")

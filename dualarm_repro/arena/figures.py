@@ -77,8 +77,10 @@ def profile_figure(rows: pd.DataFrame, column: str, label: str) -> Figure:
     colors = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK, "#7A7000")
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 3.8))
-        for k, name in enumerate(best):
-            ax.plot(ratios, found[name], color=colors[k], ls=_LINES[k % 4], label=name)
+        for name in best:
+            k = methods_of(rows).index(name)  # a method looks the same in every figure
+            line = _LINES[(k + k // len(colors)) % len(_LINES)]
+            ax.plot(ratios, found[name], color=colors[k % len(colors)], ls=line, label=name)
         ax.set(
             xscale="log", xlim=(1.0, 10.0), ylim=(0.0, 1.02), xlabel=label,
             ylabel="share of the feasible tasks",

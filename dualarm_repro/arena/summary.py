@@ -19,6 +19,8 @@ from .study import CONTESTANTS, EVALUATIONS, WITNESS
 TASK = ("kind", "group", "subject", "number")
 #: Drawings of the tasks with replacement from which intervals of means come, and their seed.
 _RESAMPLED, _SEED = 2000, 15
+#: Columns of the time of the processor.
+CLOCK = ("quarter [s]", "median [s]", "three quarters [s]")
 #: Shift of the geometric mean of evaluations, as in benchmarks of solvers [evaluations].
 SHIFT = 100.0
 
@@ -87,8 +89,8 @@ def effort(rows: pd.DataFrame, most: int = EVALUATIONS) -> pd.DataFrame:
     """Shifted geometric mean of the evaluations on feasible tasks, with its interval.
 
     exp(mean ln(e + s)) - s; a failure counts as ``most`` evaluations, or its own if it took more.
-    The interval of 95 % comes from drawing the tasks again with replacement. Columns ``quarter``,
-    ``median``, ``three quarters``: of the time of the processor of all runs [s].
+    The interval of 95 % comes from drawing the tasks again with replacement. Columns ``quarter
+    [s]``, ``median [s]``, ``three quarters [s]``: of the time of the processor of all runs.
     """
     rng, found = np.random.default_rng(_SEED), {}
     for name in methods_of(rows):
@@ -101,7 +103,7 @@ def effort(rows: pd.DataFrame, most: int = EVALUATIONS) -> pd.DataFrame:
         values = np.exp([logs.mean(), low, high]) - SHIFT
         found[name] = dict(zip(("evaluations", "low", "high"), values.tolist(), strict=True))
         clock = mine["time"].dropna().quantile([0.25, 0.5, 0.75])
-        found[name] |= dict(zip(("quarter", "median", "three quarters"), clock, strict=True))
+        found[name] |= dict(zip(CLOCK, clock, strict=True))
     return pd.DataFrame.from_dict(found, orient="index")
 
 

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 from contest_rows import A, B
 
-from dualarm_repro.arena.duels import against, duel, halves, paired_difference, successes
+from dualarm_repro.arena.duels import against, compared, duel, halves, paired_difference, successes
 from dualarm_repro.arena.summary import contest
 
 
@@ -26,7 +26,7 @@ def test_duel_counts_what_one_does_alone(rows):
     assert (found.tasks, found.only_first, found.only_second) == (3, 0, 1)
     assert found.difference.value == pytest.approx(-1 / 3)
     assert found.verdict == "undecided"  # a single task decides nothing
-    assert str(found).endswith(": undecided")
+    assert found.told.startswith("-33% [")
 
 
 def outcomes(both, first, second, neither):
@@ -64,3 +64,6 @@ def test_halves_are_met_by_kind_and_on_all(rows):
     found = halves(rows)
     assert list(found) == ["random", "all"]
     assert (found["all"].first, found["all"].second) == (B, A)
+    told = compared(found).loc["all"]
+    assert (told["tasks"], told["best of the documents'"], told["best of today's"]) == (3, B, A)
+    assert told["the documents' best"] == "undecided"
