@@ -58,7 +58,7 @@ class Arm(JointSpace):
         geometry: Callable[[], pin.GeometryModel],
         robot: DHRobot | None = None,
         types: Sequence[JointType] | None = None,
-        exclusions: Callable[[], tuple[Exclusion, ...]] | None = None,
+        exclusions: Callable[[], tuple[Exclusion, ...] | None] | None = None,
         solids: Callable[[], pin.GeometryModel] | None = None,
         remarks: Sequence[str] = (),
     ) -> None:
@@ -93,6 +93,7 @@ class Arm(JointSpace):
         geometry: Callable[[], pin.GeometryModel],
         name: str | None = None,
         flange: tuple[str, pin.SE3] | None = None,
+        exclusions: Callable[[], tuple[Exclusion, ...] | None] | None = None,
     ) -> Arm:
         """The same arm with other capsules, built when they are first asked for.
 
@@ -100,10 +101,15 @@ class Arm(JointSpace):
         ----------
         flange : (str, pinocchio.SE3), optional
             Name and pose, in the frame of the flange, of the frame that becomes the flange.
+        exclusions : callable, optional
+            Gives the pairs of the new capsules that are not watched; default those of the arm.
         """
         made = copy(self)
         made.__dict__.pop("geometry", None)
         made._build_geometry, made.name = geometry, name or self.name
+        if exclusions is not None:
+            made.__dict__.pop("exclusions", None)
+            made._find_exclusions = exclusions
         if flange is not None:
             made.__dict__.pop("_wrist_geometry", None)
             made.model, at = self.model.copy(), self.model.frames[self._flange]

@@ -41,7 +41,7 @@ def _plan(*given: Any, **named: Any) -> None:
         from ..planning.checks.truth import Verdict
         from ..view.plan_report import compare_methods
 
-        table = compare_methods(scene).reset_index().astype(str)
+        table = compare_methods(scene, named["allow_collision"]).reset_index().astype(str)
     if named.get("as_json"):
         output.print_json(table.to_dict("records"))
     else:

@@ -26,7 +26,7 @@ def time(
         float, typer.Option(help="share of the speed limits of the joints that may be used")
     ] = 1.0,
     acceleration: Annotated[
-        float, typer.Option(help="largest acceleration of any joint [rad/s^2]")
+        float, typer.Option(help="largest acceleration of any joint [rad/s^2, m/s^2]")
     ] = 5.0,
     rate: Annotated[float, typer.Option(help="samples a second")] = 100.0,
     out: Out = Path("out"),

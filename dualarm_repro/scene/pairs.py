@@ -16,7 +16,8 @@ from .pair_kernels import capsules_capsules
 from .posing import cores_in, frames_of, links_of
 
 SORTS: tuple[Sort, ...] = ("capsule", "box", "plane", "hull")
-_SAMPLES = 64
+#: Configurations of :func:`always_overlapping`.
+SAMPLES = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +99,7 @@ def find_pairs(
 
 def saying_nothing(arm: Arm) -> np.ndarray:
     """Mask (C, C) of capsules of one arm that are not watched against each other: by the evidence
-    of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`, as is a tool at
-    its flange."""
+    of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`."""
     if arm.exclusions is None:
         return always_overlapping(arm)
     names = links_of(arm).names
@@ -109,10 +109,6 @@ def saying_nothing(arm: Arm) -> np.ndarray:
     for a, first in enumerate(known):
         for b, second in enumerate(known):
             mask[a, b] = any(frozenset((x, y)) in pairs for x in first for y in second)
-    judged = {one.name for one in arm.solids.geometryObjects} if arm.solids is not None else set()
-    added = np.array([not judged & one for one in known])
-    if judged and added.any():  # tools, of which the evidence of the arm knows nothing
-        mask |= always_overlapping(arm) & (added[:, np.newaxis] | added)
     return mask
 
 
@@ -125,14 +121,14 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     phi = 2.0
     for _ in range(32):
         phi = (1.0 + phi) ** (1.0 / (arm.nq + 1))
-    fraction = np.outer(np.arange(1, _SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
+    fraction = np.outer(np.arange(1, SAMPLES + 1), phi ** -np.arange(1.0, arm.nq + 1)) % 1.0
     lower, upper = arm.usual_range
     q = lower + fraction * (upper - lower)
     links = links_of(arm)
     count = len(links.radius)
     ends = cores_in(frames_of(arm, np.eye(3, 4), q), links.joint, links.local)
     rows = np.argwhere(np.ones((count, count), dtype=bool))
-    distance = np.empty((_SAMPLES, len(rows)))
+    distance = np.empty((SAMPLES, len(rows)))
     capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))
     return (distance < 0).all(axis=0).reshape(count, count)
 

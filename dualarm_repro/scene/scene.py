@@ -36,7 +36,8 @@ class Scene:
     floor : float, optional
         Height [m] of a floor, an obstacle named ``floor``.
     exempt : pairs of names
-        Pairs that may touch. A name is a body (``left/capsule_2``) or all bodies of an owner.
+        Pairs that may touch. A name is a body (``left/capsule_2``), a link or shape of an arm
+        (``left/forearm_link``), or all bodies of an owner.
     self_collision : bool
         Whether links of one arm are watched against each other.
 

@@ -100,7 +100,7 @@ class SceneFile(StrictModel):
     moving: dict[Name, MovingEntry] = Field(default_factory=dict)
     floor: Number | None = Field(default=None, description="height of a floor")
     exempt: list[tuple[BodyName, BodyName]] = Field(
-        default=[], description="pairs of bodies or owners that may touch"
+        default=[], description="pairs that may touch: arms, ARM/LINK, obstacles or single bodies"
     )
     self_collision: bool = True
 

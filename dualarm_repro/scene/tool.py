@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import pinocchio as pin
 
 from ..arms.arm import Arm
 from ..arms.capsules import enclosing_capsules
+from ..arms.exclusions import Evidence, Exclusion, link_of
 from ..errors import InputError
+from .pairs import SAMPLES, always_overlapping
+from .posing import links_of
 from .shapes import HalfSpace, Shape
 
-TIP = "tool tip"
+TIP, TOOL = "tool tip", "tool"
 
 
 def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> Arm:
@@ -29,12 +32,13 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
         A half-space, which has no end.
     """
     flange, bodies = arm.model.frames[arm.flange_id], pin.GeometryModel()
+    called = _name_of_the_tool(arm) if shapes else TOOL
     for k, shape in enumerate(shapes):
         if isinstance(shape, HalfSpace):
             raise InputError(f"arm {arm.name}", "tool", "halfspace", "a shape with an end")
         geometry, at = shape.coal()
         pose = flange.placement * pin.SE3(at.getRotation(), at.getTranslation())
-        one = pin.GeometryObject(f"tool_{k}", flange.parentJoint, pose, geometry)
+        one = pin.GeometryObject(f"{called}_{k}", flange.parentJoint, pose, geometry)
         bodies.addGeometryObject(one)
 
     def carried() -> pin.GeometryModel:
@@ -43,4 +47,31 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
             made.addGeometryObject(one)
         return made
 
-    return arm.reshaped(carried, f"{arm.name} with tool", None if tip is None else (TIP, tip))
+    def silent() -> tuple[Exclusion, ...] | None:
+        names = {one.name for one in bodies.geometryObjects}
+        if arm.exclusions is None:
+            return None
+        return (*arm.exclusions, *_always_in_touch(held, names))
+
+    at_tip = None if tip is None else (TIP, tip)
+    held = arm.reshaped(carried, f"{arm.name} with tool", at_tip, silent)
+    return held
+
+
+def _name_of_the_tool(arm: Arm) -> str:
+    """``tool``, unless a link is called so."""
+    links, name = {link_of(one.name) for one in arm.geometry.geometryObjects}, TOOL
+    while name in links:
+        name = f"held_{name}"
+    return name
+
+
+def _always_in_touch(held: Arm, tools: Collection[str]) -> list[Exclusion]:
+    """Capsules of the arm in which parts of its tool are in every posture."""
+    names, overlaps = links_of(held).names, always_overlapping(held)
+    return [
+        Exclusion(one, tool, Evidence.ALWAYS, SAMPLES, SAMPLES, SAMPLES)
+        for a, one in enumerate(names)
+        for b, tool in enumerate(names)
+        if tool in tools and one not in tools and overlaps[a, b]
+    ]

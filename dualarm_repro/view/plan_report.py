@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ..errors import DataFileError, DualArmError, UnsupportedArmError
+from ..errors import DualArmError, UnsupportedArmError
 from ..planning.checks.truth import Truth, Verdict, truth
-from ..planning.faults import TaskFaults
+from ..planning.gate import require_sound
 from ..planning.methods import METHODS, AnyPlan, plan_file
+from ..planning.tasks.task_file import load_tasks
+from ..settings import Settings
 from .page import Page
 from .scene3d import Scene3D
 from .task_scene import drawn_scene
@@ -84,23 +86,28 @@ def usable(found: Truth, reached: bool) -> bool:
     return reached and found.within_limits and found.collision_free
 
 
-def compare_methods(path: str | Path) -> pd.DataFrame:
+def compare_methods(path: str | Path, allow_collision: bool = False) -> pd.DataFrame:
     """Outcome of every method on a task file: arms that arrive, and how close whole bodies come.
 
     A method that does not take the task says why.
 
+    Parameters
+    ----------
+    allow_collision : bool
+        Let bodies touch at the start and at the goal.
+
     Raises
     ------
-    DataFileError, TaskFaults
+    DataFileError, UnsupportedArmError, TaskFaults
         The file is wrong, whatever the method.
     """
+    given = load_tasks(path, Settings)
+    require_sound(given.path, given.scene, given.starts, given.goals, allow_collision)
     rows: dict[str, dict[str, Any]] = {}
     for name in METHODS:
         try:
-            plan = plan_file(path, name)
+            plan = plan_file(path, name, allow_collision)
         except DualArmError as refusal:
-            if not _of_the_method(refusal):
-                raise
             whom = "these arms" if isinstance(refusal, UnsupportedArmError) else "this task"
             rows[name] = dict.fromkeys(_COMPARED, "") | {"arrive": f"not for {whom} ({refusal})"}
             continue
@@ -114,13 +121,6 @@ def compare_methods(path: str | Path) -> pd.DataFrame:
         )
         rows[name] = dict(zip(_COMPARED, values, strict=True))
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("method")
-
-
-def _of_the_method(refusal: DualArmError) -> bool:
-    """Whether another method may take what this one refused."""
-    if isinstance(refusal, DataFileError):
-        return refusal.field.startswith("settings")
-    return not isinstance(refusal, TaskFaults)
 
 
 def plan_page(plan: AnyPlan, title: str) -> Page:

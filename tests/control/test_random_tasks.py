@@ -20,9 +20,11 @@ from dualarm_repro.control.random_tasks import (
 )
 from dualarm_repro.control.scenario import load_scenario
 from dualarm_repro.control.settings import ControllerSettings
+from dualarm_repro.control.system import ArmSystem
 from dualarm_repro.control.task_search import CROSSING, TO_LIMITS, TOO_CLOSE, score, search_task
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.errors import ConfigurationError, UnknownNameError
+from dualarm_repro.scene import PlacedArm
 
 RADII = (0.1, 0.2)
 
@@ -33,6 +35,15 @@ def test_random_configurations_stay_within_their_ranges(system):
     assert (q > system.limits.lower).all()
     assert (q < system.limits.upper).all()
     assert np.abs(q).max() <= np.pi
+
+
+def test_joints_that_turn_for_ever_are_drawn_within_a_turn():
+    kinova = ArmSystem([PlacedArm("arm", load_arm("kinova-j2s6s200"))])
+    q = np.array([draw_task(kinova, np.random.default_rng(k), RADII).q0 for k in range(40)])
+    for_ever = kinova.arms[0].arm.turns_for_ever
+    assert np.isfinite(q).all()
+    assert np.abs(q[:, for_ever]).max() <= 0.9 * np.pi
+    assert np.abs(q[:, for_ever]).max() > 0.8 * np.pi
 
 
 def test_drawn_tasks_are_of_the_stream_and_start_at_the_tips(system):

@@ -141,3 +141,47 @@ def test_faults_travel_between_processes():
     assert again.lines == faults.lines
     assert again.lines[-1] == "f: 3 more of the kind"
     assert (again.source, again.field, again.value) == ("f", "0", 0)
+
+
+LIFT = """<robot name="lift"><link name="foot"><collision><geometry><box size="0.6 0.4 0.1"/>
+</geometry></collision></link><link name="l1"><collision><origin xyz="0 0 0.2"/><geometry>
+<box size="0.6 0.4 0.02"/></geometry></collision></link><link name="l2"><collision>
+<origin xyz="0 0 0.4"/><geometry><sphere radius="0.05"/></geometry></collision></link>
+<joint name="up" type="prismatic"><parent link="foot"/><child link="l1"/><axis xyz="0 0 1"/>
+<limit lower="0" upper="0.4" velocity="1" effort="1"/></joint>
+<joint name="turn" type="continuous"><parent link="l1"/><child link="l2"/><axis xyz="0 0 1"/>
+<limit velocity="1" effort="1"/></joint></robot>"""
+
+
+def lift(folder, start, goal, rest=""):
+    (folder / "lift.urdf").write_text(LIFT, encoding="utf-8")
+    return f"arms: {{lift: {{robot: lift.urdf, start: {start}, goal: {goal}}}}}\n{rest}"
+
+
+def test_limits_of_a_lift_are_metres_and_what_turns_for_ever_has_none(tmp_path):
+    told = lines(tmp_path, lift(tmp_path, "[0.1, 40]", "[0.5, -70]"))
+    assert len(told) == 1
+    assert told[0].endswith("lift.goal: up = 0.5: expected 0 to 0.4 m")
+
+
+def test_the_goal_of_what_turns_for_ever_is_the_near_one(tmp_path):
+    """From 3 to -3 rad by 0.28, whatever the number of turns in the file."""
+    text = lift(tmp_path, "[0.1, 3.0]", "[0.3, -3.0]")
+    task = load_tasks(written(tmp_path, text)).tasks["lift"]
+    assert task.goal == pytest.approx([0.3, 2 * np.pi - 3.0], abs=1e-14)
+    assert task.goal[0] == 0.3
+    text = lift(tmp_path, "[0.1, 40.0]", "[0.3, 0.0]")
+    assert load_tasks(written(tmp_path, text)).tasks["lift"].goal[1] == pytest.approx(12 * np.pi)
+
+
+def test_a_mounting_is_one_line_for_all_capsules_of_a_shape(tmp_path):
+    """The lowest plate of a lift, fitted by several capsules, stands in a block."""
+    block = "obstacles: {block: {kind: box, center: [0, 0, 0.4], size: [1, 1, 0.6]}}\n"
+    text = lift(tmp_path, "[0.1, 0]", "[0.2, 0]", block)
+    told = lines(tmp_path, text)
+    mounts = [line for line in told if "mounting = " in line]
+    assert len(mounts) == 1
+    assert "`exempt: [[lift/l1_0, block]]`" in mounts[0]
+    cured = text + "exempt: [[lift/l1_0, block], [lift/l2, block]]\n"
+    given = load_tasks(written(tmp_path, cured))
+    require_sound(given.path, given.scene, given.starts, given.goals)

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from two_spheres import GOAL, START, placed_arm
 
+from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning.field.control_points import end_effector
 from dualarm_repro.planning.tasks.tip_goal import nearest_posture, tip_posture
+from dualarm_repro.scene import PlacedArm
 
 BEYOND = [-0.1, -0.2, 0.75]
 
@@ -33,6 +35,16 @@ def test_best_effort_stretches_towards_the_point():
     reach = 0.27 + np.hypot(0.302, 0.07) + 0.072
     assert np.linalg.norm(posture.tip - shoulder) == pytest.approx(reach, abs=1e-7)
     assert posture.residual == pytest.approx(np.linalg.norm(BEYOND - shoulder) - reach, abs=1e-9)
+
+
+def test_joints_that_turn_for_ever_have_finite_postures():
+    """Three of the joints of a Kinova have no limits."""
+    placed = PlacedArm("arm", load_arm("kinova-j2s6s200"))
+    assert placed.arm.turns_for_ever.sum() == 3
+    q = np.array([9.0, 2.9, 1.3, -8.0, 1.4, 20.0])
+    found = tip_posture(placed, end_effector(placed, q), q + 0.2)
+    assert found.residual < 1e-6
+    assert np.abs(placed.arm.difference(q, found.q)).max() < 0.5
 
 
 def test_bad_input():

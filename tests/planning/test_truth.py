@@ -134,7 +134,9 @@ def test_meshes_are_never_closer_than_the_report(tmp_path):
     judged = truth(found.scene, found.paths)
     model = pin.buildModelFromUrdf(str(file))
     folders = [str(folder) for folder in file.parents]
-    meshes = pin.buildGeomFromUrdf(model, str(file), pin.GeometryType.COLLISION, folders)
+    meshes = pin.buildGeomFromUrdf(
+        model, str(file), pin.GeometryType.COLLISION, package_dirs=folders
+    )
     data, smallest = model.createData(), np.inf
 
     def placed(one, q):

@@ -20,7 +20,7 @@ from dualarm_repro.scene import (
     distances,
 )
 from dualarm_repro.scene.broad_phase import MANY, bounds_of, near_scene, swept_boxes, with_arms
-from dualarm_repro.scene.posing import cores_in, link_frames, links_of
+from dualarm_repro.scene.posing import cores_in, frames_of, links_of
 
 
 def arms():
@@ -73,14 +73,30 @@ def test_few_obstacles_are_all_kept():
     assert near_scene(scene, np.zeros((1, scene.nq)), np.zeros(1)) is scene
 
 
-def test_swept_boxes_hold_the_links_between_the_samples():
+SLIDING = """<robot name="slide"><link name="b"/>
+<link name="l1"/><link name="l2"/><link name="l3"><collision><origin xyz="0.3 0 0"/><geometry>
+<sphere radius="0.05"/></geometry></collision></link>
+<joint name="turn" type="continuous"><parent link="b"/><child link="l1"/><axis xyz="0 0 1"/></joint>
+<joint name="out" type="prismatic"><parent link="l1"/><child link="l2"/><axis xyz="1 0 0"/>
+<limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+<joint name="bend" type="revolute"><parent link="l2"/><child link="l3"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("sliding", [False, True])
+def test_swept_boxes_hold_the_links_between_the_samples(sliding, tmp_path):
+    """Turned by half a circle with the slide far out, a link comes 2 m away from both ends."""
     rng = np.random.default_rng(2)
-    scene = Scene([arms()[0]])
+    (tmp_path / "slide.urdf").write_text(SLIDING, encoding="utf-8")
+    one = PlacedArm("slide", load_arm(tmp_path / "slide.urdf")) if sliding else arms()[0]
+    scene = Scene([one])
     path = scene.arms[0].arm.random_configurations(2, rng)
+    if sliding:
+        path = np.array([[-1.5, 2.0, 0.3], [1.5, 2.0, -0.3]])
     low, high = swept_boxes(scene, path)
     arm, links = scene.arms[0].arm, links_of(scene.arms[0].arm)
     rows = path[0] + np.linspace(0, 1, 50)[:, None] * (path[1] - path[0])
-    cores = cores_in(link_frames(arm.chain, np.eye(3, 4), rows), links.joint, links.local)
+    cores = cores_in(frames_of(arm, np.eye(3, 4), rows), links.joint, links.local)
     assert (cores.min(axis=2) - links.radius[:, None] >= low - 1e-12).all()
     assert (cores.max(axis=2) + links.radius[:, None] <= high + 1e-12).all()
 

@@ -16,7 +16,7 @@ from dualarm_repro.scene import (
     pairs,
 )
 from dualarm_repro.scene.pairs import SORTS, always_overlapping
-from dualarm_repro.scene.posing import link_frames, links_of
+from dualarm_repro.scene.posing import frames_of, links_of
 from examples import two_arms
 
 
@@ -140,11 +140,11 @@ def test_moving_bodies_meet_links_only():
 def test_overlap_is_looked_for_all_over_the_joint_limits_and_nowhere_else(monkeypatch):
     arm, seen = load_arm("irb120"), []
 
-    def frames(chain, base, q):
+    def frames(arm, base, q):
         seen.append(q)
-        return link_frames(chain, base, q)
+        return frames_of(arm, base, q)
 
-    monkeypatch.setattr(pairs, "link_frames", frames)
+    monkeypatch.setattr(pairs, "frames_of", frames)
     always_overlapping(arm)
     (q,) = seen
     assert (q >= arm.lower).all()
@@ -152,3 +152,37 @@ def test_overlap_is_looked_for_all_over_the_joint_limits_and_nowhere_else(monkey
     share = (q - arm.lower) / (arm.upper - arm.lower)
     assert (share.min(axis=0) < 0.1).all()
     assert (share.max(axis=0) > 0.9).all()
+
+
+TWO_PLATES = """<robot name="plates"><link name="b"><collision><geometry><box size="0.6 0.4 0.02"/>
+</geometry></collision></link><link name="l1"><collision><origin xyz="0 0 0.4"/><geometry>
+<box size="0.5 0.4 0.02"/></geometry></collision></link>
+<joint name="j1" type="revolute"><parent link="b"/><child link="l1"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""
+
+
+@pytest.fixture
+def plates(tmp_path):
+    """An arm of two plates, each fitted by several capsules."""
+    (tmp_path / "plates.urdf").write_text(TWO_PLATES, encoding="utf-8")
+    return PlacedArm("arm", load_arm(tmp_path / "plates.urdf"))
+
+
+@pytest.mark.parametrize("name", ["arm/l1", "arm/l1_0", "arm"])
+def test_a_link_or_a_shape_stands_for_all_its_capsules(plates, name):
+    ball = {"ball": Sphere([0.0, 0.0, 0.4], 0.1), "other": Sphere([0.0, 0.0, 0.5], 0.1)}
+    whole = Scene([plates], ball)
+    upper = {a for a, _ in whole.pairs.names if a.startswith("arm/l1_0.")}
+    assert len(upper) > 1
+    left = Scene([plates], ball, exempt=[(name, "ball")])
+    assert {b for _, b in left.pairs.names} == {"other"}
+    assert {a for a, _ in left.pairs.names} == upper
+    assert whole.pairs.between(name, "ball").sum() == len(upper)
+
+
+def test_names_that_nobody_has_are_told_with_shapes_and_not_with_capsules(plates):
+    with pytest.raises(UnknownNameError) as caught:
+        Scene([plates], {"wall_1": Sphere([0, 0, 1], 0.1)}, exempt=[("arm/l2", "wall_1")])
+    assert caught.value.expected == "one of arm, arm/b_0, arm/l1_0, wall_1"
+    with pytest.raises(UnknownNameError):  # only links of arms are known without their number
+        Scene([plates], {"wall_1": Sphere([0, 0, 1], 0.1)}, exempt=[("arm", "wall")])

@@ -9,7 +9,16 @@ import pytest
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.errors import DataFileError, InputError
-from dualarm_repro.scene import Capsule, HalfSpace, Sphere, distances, load_scene, signed_distance
+from dualarm_repro.scene import (
+    Capsule,
+    HalfSpace,
+    PlacedArm,
+    Scene,
+    Sphere,
+    distances,
+    load_scene,
+    signed_distance,
+)
 from dualarm_repro.scene.mesh_parts import covering, divided, mesh_parts
 from dualarm_repro.scene.posing import links_of
 from dualarm_repro.scene.scene_file import MOST_OBSTACLES, scene_of
@@ -130,6 +139,34 @@ def test_a_tool_collides_where_coal_says_so():
     assert found == pytest.approx(wanted, abs=1e-6)
     with pytest.raises(InputError, match="a shape with an end"):
         with_tool(arm, [HalfSpace([0, 0, 1], 0)])
+
+
+COAXIAL = """<robot name="coaxial"><link name="b"/><link name="l1"><collision>
+<origin xyz="0 0 0.1"/><geometry><sphere radius="0.05"/></geometry></collision></link>
+<link name="l2"/><link name="tool"><collision><origin xyz="0.3 0 0"/><geometry>
+<sphere radius="0.05"/></geometry></collision></link>{joints}</robot>"""
+COAXIAL_JOINT = (
+    "<joint name='j{0}' type='revolute'><parent link='{1}'/><child link='{2}'/><axis xyz='0 0 1'/>"
+    "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint>"
+)
+
+
+def test_a_tool_of_a_fitted_arm_is_watched_but_where_it_always_is(tmp_path):
+    """One part of the tool sits in the first link for ever, another can meet it: a listed
+    exclusion, and a watched pair."""
+    names = ("b", "l1", "l2", "tool")
+    joints = "".join(COAXIAL_JOINT.format(k, *names[k : k + 2]) for k in range(3))
+    (tmp_path / "coaxial.urdf").write_text(COAXIAL.format(joints=joints), encoding="utf-8")
+    arm = load_arm(tmp_path / "coaxial.urdf")
+    held = with_tool(arm, [Sphere([0, 0, 0.1], 0.05), Sphere([0.3, 0, 0.1], 0.05)])
+    assert arm.exclusions == ()
+    (excluded,) = held.exclusions
+    assert {excluded.first, excluded.second} == {"l1_0", "held_tool_0"}
+    scene = Scene([PlacedArm("arm", held)], {"ball": Sphere([0, 0, 9], 1)})
+    assert ("arm/l1_0", "arm/held_tool_1") in scene.pairs.names
+    assert ("arm/l1_0", "arm/held_tool_0") not in scene.pairs.names
+    assert {("arm/held_tool_0", "ball"), ("arm/held_tool_1", "ball")} <= set(scene.pairs.names)
+    assert scene.pairs.between("arm/held_tool", "ball").sum() == 2
 
 
 BOMB = "a: &a [x, x, x, x, x, x, x, x, x, x]\n" + "".join(

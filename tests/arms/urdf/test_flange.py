@@ -20,6 +20,8 @@ from .texts import joint, link, write
         ("so_arm_description/urdf/so101.urdf", 5, None),
         ("bravo7_description/urdf/bravo7_gripper.urdf", 6, None),
         ("z1_description/urdf/z1.urdf", 6, "link06"),
+        ("b1_description/urdf/b1-z1.urdf", 6, "link06"),
+        ("pr2_description/urdf/pr2.urdf", 8, "l_wrist_roll_link"),
         ("ur_description/urdf/ur5_robot.urdf", 6, "tool0"),
         ("ur_description/urdf/ur5_gripper.urdf", 6, None),
         ("xarm_description/urdf/xarm7.urdf", 7, "link_eef"),
