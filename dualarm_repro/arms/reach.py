@@ -13,7 +13,13 @@ def largest_reach(arm: Arm, rng: np.random.Generator, draws: int = 20_000) -> fl
     """max |p(q)|, the largest distance of the flange from the base, joint limits left aside [m].
 
     Best of some random configurations, polished by quasi-Newton steps with the exact Jacobian.
+
+    Raises
+    ------
+    UnsupportedArmError
+        A joint slides: without its limits there is no largest distance.
     """
+    arm.chain  # noqa: B018  refuses
     q = rng.uniform(-np.pi, np.pi, (draws, arm.nq))
     best = q[np.argmax(np.linalg.norm(arm.fk(q)[:, :3, 3], axis=1))]
 

@@ -6,13 +6,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
 from ..arms.exclusions import shape_of
 from ..errors import InputError
-from ..scene import PlacedArm, Scene, distances
+from ..scene import JointPath, PlacedArm, Scene, distances
 from ..scene.bodies import Body
+from ..scene.exact_shapes import exact_minimum
 from .faults import TaskFaults
 
 START, GOAL = "start", "goal"
@@ -20,6 +22,7 @@ START, GOAL = "start", "goal"
 ROUNDING = 1e-9
 #: Configurations in which a mounted capsule has to touch what it stands on.
 _SAMPLES = 64
+_TOLERANCE = 1e-3  # [m], of no weight at a single posture
 
 
 def require_sound(
@@ -111,7 +114,21 @@ def contact_faults(
         more = f"; {len(pairs) - 1} more pairs of theirs touch" if len(pairs) > 1 else ""
         expected = f"{one} and {other} apart, not at a distance of {found[:, worst].min():.4g} m"
         faults.append(InputError(source, when, value, expected + more))
+    told = {(when, owners) for whens, owners in groups for when in whens.split(" and ")}
+    for when, placed in product(ends, scene.arms):
+        if (when, (placed.name, placed.name)) not in told:
+            faults += _exact_faults(source, scene, placed, when, ends[when][placed.name])
     return faults
+
+
+def _exact_faults(
+    source: object, scene: Scene, placed: PlacedArm, when: str, q: np.ndarray
+) -> Iterator[InputError]:
+    """A fault if exact shapes of one arm touch, of which its capsules do not tell."""
+    found = exact_minimum(scene, placed, JointPath([q]), _TOLERANCE, np.inf)
+    if found is not None and found[0].upper <= 0.0:
+        expected = f"{' and '.join(found[1])} apart; the shapes of the robot file touch"
+        yield InputError(source, when, {placed.name: q.tolist()}, expected)
 
 
 def _owners(pair: tuple[Body, Body]) -> tuple[str, str]:

@@ -70,12 +70,42 @@ def certified_minimum(
     scene.configurations(path)
     track = JointPath(path, index)
     positive("certified_minimum", "tolerance", tolerance)
+
+    def measured(q: np.ndarray, time: np.ndarray) -> np.ndarray:
+        return distances(scene, q, time)
+
     walked = _travel(scene, track)
+    return bracketed(track, measured, walked, track.index, tolerance, enough, budget)
+
+
+def bracketed(
+    track: JointPath,
+    measured: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    walked: Callable[[np.ndarray], np.ndarray],
+    looks: np.ndarray,
+    tolerance: float,
+    enough: float,
+    budget: int,
+) -> Bracket:
+    """Bounds on the smallest of some distances along a path, halving its pieces where needed.
+
+    Parameters
+    ----------
+    measured : callable
+        Configurations (N, nq) and times (N,) -> distances (N, P) [m].
+    walked : callable
+        Times (N,) -> ways (N, P) that the two of each pair have moved relative to each other at
+        most since the first [m].
+    looks : (M,)
+        Times to begin with, the first and the last of the path among them.
+    tolerance, enough, budget
+        As in :func:`certified_minimum`.
+    """
 
     def sample(time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        return time, distances(scene, track.at(time), time), walked(time)
+        return time, measured(track.at(time), time), walked(time)
 
-    time, distance, travel = sample(track.index)
+    time, distance, travel = sample(looks)
     best, best_time = _smallest(distance, time)
     evaluations, lower = len(time), best
     start = tuple(part[:-1] for part in (time, distance, travel))

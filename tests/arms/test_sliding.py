@@ -6,6 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from dualarm_repro.arms import load_arm
+from dualarm_repro.arms.reach import largest_reach
 from dualarm_repro.differences import central_differences
 from dualarm_repro.errors import ConfigurationError, UnsupportedArmError
 from dualarm_repro.scene import PlacedArm, Scene, Sphere, clearance_gradient, distances
@@ -81,5 +82,7 @@ def test_what_knows_turning_joints_only_refuses(arm):
         _ = arm.chain
     with pytest.raises(UnsupportedArmError, match="prismatic"):
         arm.ik(np.eye(4))
+    with pytest.raises(UnsupportedArmError, match="prismatic"):
+        largest_reach(arm, np.random.default_rng(0), 10)
     with pytest.raises(ConfigurationError, match=r"\[rad, m for prismatic joints\]"):
         arm.fk([0.0])

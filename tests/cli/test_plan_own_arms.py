@@ -232,6 +232,18 @@ def test_a_method_that_knows_turning_joints_only_says_so(dualarm, tmp_path, meth
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("method", ["apf-improved", "apf-bidirectional"])
+def test_with_its_lift_locked_an_arm_is_planned_by_these_methods(dualarm, tmp_path, method):
+    """The remedy of the line above."""
+    text = SCENES["a prismatic lift"][1].replace('"lift.urdf"', '"lift.urdf", lock: {up: 0.2}')
+    text = text.replace("[0.1, 0.2, 3.0, 0]", "[0.2, 3.0, 0]").replace("[0.4, 0.6,", "[0.6,")
+    path, _ = written(tmp_path, text)
+    out = tmp_path / "out"
+    code, _, err = dualarm("plan", path, "--method", method, "--out", out)
+    assert (code, err) == (0, "")
+    judged_again(path, out, [], json.loads((out / "cell.json").read_text()))
+
+
 def test_a_lift_that_is_parked_hinders_nobody(dualarm, tmp_path):
     """It stands as an obstacle, raised as its start says, for a method that cannot move it."""
     parked = arm("lift", "lift.urdf", [1.2, 0, 0], [0.4, 0.2, 3.0, 0])
@@ -308,3 +320,27 @@ def test_what_touches_by_its_meshes_is_refused(dualarm, tmp_path):
             assert code == 2
             assert err.count("only/") >= 2
     assert touching >= 3
+
+
+@pytest.mark.parametrize(
+    "start",
+    [
+        [3.0685, 2.4113, -0.5825, -3.9672, 0.8241, 5.8918],
+        [3.4858, 0.5656, -2.5584, -4.0475, -2.4232, 5.3441],
+        [-3.0515, -4.0894, -0.5542, -5.7515, 0.6468, 4.1067],
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("end", ["start", "goal"])
+def test_a_contact_that_watched_capsules_do_not_see_is_refused(dualarm, tmp_path, start, end):
+    """Meshes of a UR5 touch, and no two capsules that are watched do."""
+    both = {"start": [0.0] * 6, "goal": [0.0] * 6, end: start}
+    path, _ = written(tmp_path, arm("only", UR5, [0, 0, 0], both["start"], both["goal"]))
+    (tmp_path / "out").mkdir()
+    table = pd.DataFrame([start], columns=[f"q{k + 1}" for k in range(6)])
+    table.to_csv(tmp_path / "out" / "cell_only.csv")
+    assert Replay(path, tmp_path / "out").touching()
+    code, _, err = dualarm("check", path)
+    assert code == 2
+    assert f": {end} = " in err
+    assert len(err.splitlines()) == 1

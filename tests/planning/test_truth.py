@@ -118,6 +118,42 @@ def test_near_misses_are_decided_by_a_finer_bracket(tmp_path):
         assert found.verdict is verdict
 
 
+def test_an_arm_is_never_nearer_to_itself_than_the_report(tmp_path):
+    """Postures and a motion of a UR5 alone, some capsules of which are not watched, against its
+    collision meshes, placed and measured by Pinocchio and coal alone."""
+    urdf = "ur_description/urdf/ur5_robot.urdf"
+    file = Path(getModelPath(urdf)) / urdf
+    model = pin.buildModelFromUrdf(str(file))
+    meshes = pin.buildGeomFromUrdf(
+        model, str(file), pin.GeometryType.COLLISION,
+        package_dirs=[str(folder) for folder in file.parents],
+    )  # fmt: skip
+    for i, one in enumerate(meshes.geometryObjects):
+        for k, other in enumerate(meshes.geometryObjects[:i]):
+            if abs(one.parentJoint - other.parentJoint) > 1:
+                meshes.addCollisionPair(pin.CollisionPair(k, i))
+    data, measured = model.createData(), meshes.createData()
+
+    def apart(q):
+        pin.computeDistances(model, data, meshes, measured, q)
+        return min(one.min_distance for one in measured.distanceResults)
+
+    text = f"arms: {{only: {{robot: {file}, start: [0, 0, 0, 0, 0, 0], goal: [0, 0, 0, 0, 0, 1]}}}}"
+    (placed,) = load_tasks(written(tmp_path, text)).scene.arms
+    scene = Scene([placed])
+    free, q = 0, placed.arm.random_configurations(60, np.random.default_rng(9))
+    for row in q:
+        judged = truth(scene, {"only": JointPath([row])})
+        free += judged.collision_free
+        assert judged.lower <= max(apart(row), 0.0) + 1e-9
+    assert free > 20
+    clear = [row for row in q if truth(scene, {"only": JointPath([row])}).collision_free]
+    path = JointPath(np.array(clear[:2]))
+    judged = truth(scene, {"only": path})
+    rows = path.at(np.linspace(0.0, 1.0, 80))
+    assert judged.lower <= max(min(map(apart, rows)), 0.0) + 1e-9
+
+
 def test_meshes_are_never_closer_than_the_report(tmp_path):
     """Two UR5: the collision meshes of their description, placed and measured by Pinocchio and
     coal alone, against the report over capsules."""

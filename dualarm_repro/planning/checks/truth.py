@@ -12,6 +12,8 @@ import numpy as np
 from ...errors import UnknownNameError
 from ...scene import JointPath, Scene, certified_minimum, distances
 from ...scene.broad_phase import near_scene
+from ...scene.certificate import Bracket
+from ...scene.exact_shapes import exact_minimum
 from ..gate import ROUNDING, beyond_limits
 
 #: Wanted width of the bracket, and that tried where the wide one does not decide [m].
@@ -67,6 +69,9 @@ class Truth:
         return Verdict.COLLISION if self.upper <= 0.0 else Verdict.UNDECIDED
 
 
+_Pair = tuple[str, str] | None
+
+
 def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     """Judge the motion of all arms of a scene, from the first index to the last of any path.
 
@@ -100,6 +105,8 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     pair = None
     if len(near.pairs):
         pair = near.pairs.names[int(distances(near, found.q, found.time).argmin())]
+    if found.lower > 0.0:
+        found, pair = _with_exact_shapes(scene, q, index, found, pair)
     excess = {
         one.name: beyond_limits(one, q[:, scene.columns[one.name]]).max() for one in scene.arms
     }
@@ -111,3 +118,21 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
         {name: found.q[columns] for name, columns in scene.columns.items()},
         {name: float(value) for name, value in excess.items()},
     )
+
+
+def _with_exact_shapes(
+    scene: Scene, q: np.ndarray, index: np.ndarray, found: Bracket, pair: _Pair
+) -> tuple[Bracket, _Pair]:
+    """The bracket and pair after a look at shapes of one arm whose capsules do not tell."""
+    for placed in scene.arms:
+        path = JointPath(q[:, scene.columns[placed.name]], index)
+        exact = exact_minimum(scene, placed, path, TOLERANCE, found.lower)
+        if exact is None:
+            continue
+        one, names = exact
+        lower = min(found.lower, one.lower)
+        if one.upper < found.upper:
+            row = JointPath(q, index).at(np.array([one.time]))[0]
+            found, pair = found._replace(upper=one.upper, q=row, time=one.time), names
+        found = found._replace(lower=lower)
+    return found, pair
