@@ -13,7 +13,7 @@ from .random_cases import GRADES, PAIRS, near_case, random_case
 DOCUMENT, RANDOM, NEAR, BENCHMARK = "document", "random", "near contact", "one Panda"
 KINDS = (DOCUMENT, RANDOM, NEAR, BENCHMARK)
 #: Tasks of each pair and grade, tasks near contact of each pair and end, problems of each set.
-RANDOM_TASKS, NEAR_TASKS, PROBLEMS = 3, 2, 2
+RANDOM_TASKS, NEAR_TASKS, PROBLEMS = 3, 2, 1
 
 
 def case_settings() -> list[dict[str, Any]]:

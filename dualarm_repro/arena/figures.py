@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..baselines.registry import BASELINES
 from ..view.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, WIDTH, YELLOW, house_style
 from .judged import Outcome
+from .study import PAPERS
 from .summary import methods_of, outcome_counts, profile, success_table
 
 _OUTCOMES = {
@@ -29,16 +29,23 @@ def success_figure(rows: pd.DataFrame) -> Figure:
     table = success_table(rows).iloc[::-1]
     at = np.arange(len(table))
     with house_style():
-        figure, ax = plt.subplots(figsize=(WIDTH, 0.3 * len(table) + 1.2))
-        color = [ORANGE if name in BASELINES else BLUE for name in table.index]
-        ax.hlines(at, table["low"], table["high"], color=color, lw=3, alpha=0.5)
-        ax.scatter(table["share"], at, color=color, zorder=3, label="certified (95 % interval)")
+        figure, ax = plt.subplots(figsize=(WIDTH, 0.3 * len(table) + 1.4))
+        today = np.array([name not in PAPERS for name in table.index])
+        for mine, color, marker, whose in (
+            (~today, BLUE, "o", "documents' methods"),
+            (today, ORANGE, "s", "today's planners"),
+        ):
+            rows = table[mine]
+            ax.hlines(at[mine], rows["low"], rows["high"], color=color, lw=3, alpha=0.5)
+            label = f"{whose}, certified (95 % interval)"
+            ax.scatter(rows["share"], at[mine], color=color, marker=marker, zorder=3, label=label)
         ax.scatter(
             table["claimed"], at, marker="|", s=90, color=BLACK, zorder=4, label="planner's claim"
         )
         ax.set(xlim=(-0.02, 1.02), xlabel="share of the feasible tasks", yticks=at)
         ax.set_yticklabels(table.index)
-        ax.legend(loc="lower right")
+        ax.margins(y=0.03)
+        figure.legend(loc="outside upper center", ncols=2)
     return figure
 
 
@@ -56,6 +63,7 @@ def outcome_figure(rows: pd.DataFrame) -> Figure:
             )  # fmt: skip
             left += width
         ax.set_xlabel("number of tasks")
+        ax.margins(y=0.02)
         ax.grid(axis="y", visible=False)
         figure.legend(loc="outside upper center", ncols=3)
     return figure
@@ -69,8 +77,10 @@ def profile_figure(rows: pd.DataFrame, column: str, label: str) -> Figure:
     colors = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK, "#7A7000")
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 3.8))
-        for k, name in enumerate(best):
-            ax.plot(ratios, found[name], color=colors[k], ls=_LINES[k % 4], label=name)
+        for name in best:
+            k = methods_of(rows).index(name)  # a method looks the same in every figure
+            line = _LINES[(k + k // len(colors)) % len(_LINES)]
+            ax.plot(ratios, found[name], color=colors[k % len(colors)], ls=line, label=name)
         ax.set(
             xscale="log", xlim=(1.0, 10.0), ylim=(0.0, 1.02), xlabel=label,
             ylabel="share of the feasible tasks",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from enum import StrEnum
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -58,17 +58,17 @@ def judged_row(
         ``lower`` and ``upper`` bound of the smallest distance of any two bodies [m];
         ``joint_length`` [rad] and ``tool_length`` [m], of all arms together; ``bending``, mean
         squared curvature of the joint path [1/rad^2]; ``evaluations`` of distances or of the
-        field; ``time`` [s]. NaN for what there is not.
+        field; ``time`` of the processor [s]. NaN for what there is not.
     """
     if case.fault:
         return {**_nothing(), "outcome": str(Outcome.NO_TASK), "reason": case.fault}
-    begin = perf_counter()
+    begin = process_time()
     try:
         plan = answered(case, method, evaluations, int(rng.integers(2**31 - 2)))
     except (DualArmError, ArithmeticError, LookupError, RuntimeError, ValueError) as error:
         kind = str(error) if isinstance(error, DualArmError) else type(error).__name__
         return {**_nothing(), "outcome": str(Outcome.REFUSED), "reason": " ".join(kind.split())}
-    time = perf_counter() - begin
+    time = process_time() - begin
     paths = completed(case, plan.paths)
     found = truth(case.scene, paths)
     claim = all(bool(one.reached) for one in plan.plans.values())

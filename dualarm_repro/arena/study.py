@@ -15,7 +15,7 @@ from .cases import case_of, cells
 from .judged import MEASURED, Outcome, judged_row
 
 #: Configurations that a planner may ask distances of, and those of the witness.
-EVALUATIONS, WITNESS_EVALUATIONS = 10_000, 60_000
+EVALUATIONS, WITNESS_EVALUATIONS = 10_000, 20_000
 #: A method of this name asks whether a task can be done at all.
 WITNESS, BEST, WITNESS_RUNS = "witness", "rrt-connect-simplified", 3
 SEED = 20_260_015

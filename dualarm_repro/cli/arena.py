@@ -54,6 +54,10 @@ def arena(
     for option, value in (("--kind", kind), ("--most", most)):
         if value is not None and not method:
             raise InputError("arena", option, value, "a --method beside it")
+    for option, value in (("--jobs", jobs), ("--scheduler", scheduler)):
+        if value is not None and method:
+            expected = "no --method beside it: chosen planners run here, one after the other"
+            raise InputError("arena", option, value, expected)
     with progress.waiting("loading the arena"):
         from ..arena.contest import contest_now
         from ..arena.study import ARENA

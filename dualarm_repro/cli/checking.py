@@ -132,11 +132,12 @@ def study(
         if not computes:
             expected = "a NAME or --stale beside it: a list of the studies computes nothing"
             raise InputError("study", f"--{option}", value, expected)
+    from ..arena.study import ARENA
     from ..ledger.spot import stored_studies
     from ..papers import load
 
     with progress.waiting("reading the stored studies"):
-        known = stored_studies(load())
+        known = {**stored_studies(load()), ARENA.name: ARENA}
         for name in names or []:
             if not any(fnmatchcase(one, name) for one in known):
                 near = get_close_matches(name, known, n=3, cutoff=0.3) or list(known)[:3]

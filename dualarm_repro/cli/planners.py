@@ -37,6 +37,7 @@ def methods(as_json: AsJson = False) -> None:
 @examples(
     "dualarm plan tasks.yaml --method apf-bidirectional --out results",
     "dualarm plan tasks.yaml --method apf-improved --json",
+    "dualarm plan tasks.yaml --method all",
 )
 def plan(
     scene: Annotated[Path, typer.Argument(metavar="SCENE.yaml", help="scene or task file")],
@@ -44,7 +45,7 @@ def plan(
         str,
         typer.Option(
             metavar="NAME",
-            help="name of a planner, see `dualarm methods`",
+            help="name of a planner, see `dualarm methods`, or `all`",
             autocompletion=completion.methods,
         ),
     ],
@@ -55,6 +56,7 @@ def plan(
     """Plan the tasks of your own arms.
 
     Writes STEM.json, STEM_ARM.csv and the 3-D scene STEM.html, and says how closely bodies pass.
+    The method `all` compares all planners, one line each, and writes nothing.
     Exit code 0: all arrive and are certified free of contact; 3: not so, and the files say so; 2:
     bad input, nothing is written.
     """

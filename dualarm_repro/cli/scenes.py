@@ -71,7 +71,7 @@ def view(
         output.print_written([page])
 
 
-def print_links(summary: dict[str, Any]) -> None:
+def print_links(summary: dict[str, Any], when: str = "step {:.4g}") -> None:
     """The closest bodies, and the word for it if they collide."""
     links = summary["links"]
     if not links["pair"]:
@@ -82,5 +82,5 @@ def print_links(summary: dict[str, Any]) -> None:
     collision = (
         "" if links["collision_free"] else f": {links['verdict']}, do not run this on robots"
     )
-    at = f"between {low:.4f} and {high:.4f} m at step {links['step']:.4g}"
+    at = f"between {low:.4f} and {high:.4f} m at {when.format(links['step'])}"
     print(f"closest bodies: {pair} {at}{collision}")

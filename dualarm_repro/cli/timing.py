@@ -77,7 +77,7 @@ def time(
     else:
         print(f"duration: {motion.duration:.3f} s, {len(motion.time)} samples")
         print(f"largest distance from the path given: {motion.deviation:.2g} rad")
-        print_links(summary)
+        print_links(summary, "{:.3f} s")
         output.print_written(files)
     if not free:
         raise typer.Exit(NOT_USABLE)

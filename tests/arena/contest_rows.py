@@ -14,6 +14,7 @@ def made(number, method, outcome, length=np.nan, evaluations=0, claim=False):
     """A row as the study stores it."""
     task = {"kind": "random", "group": "g", "subject": "s", "number": number}
     values = {"joint_length": length, "evaluations": evaluations, "claim": claim}
+    values["time"] = 0.01 * evaluations
     return {**task, "method": method, "outcome": str(outcome), **values}
 
 

@@ -21,9 +21,12 @@ def test_successes_are_drawn_where_they_are(rows):
     ax = figures.success_figure(rows).axes[0]
     assert ax.get_xlabel() == "share of the feasible tasks"
     names = [label.get_text() for label in ax.get_yticklabels()]
-    drawn = dict(zip(names, ax.collections[1].get_offsets()[:, 0], strict=True))
+    certified = [one for one in ax.collections if "certified" in str(one.get_label())]
+    drawn = {names[int(y)]: x for one in certified for x, y in one.get_offsets()}
     share = success_table(rows)["share"]
     assert drawn == pytest.approx({A: share[A], B: share[B]})
+    assert len(certified) == 2  # the documents' and today's, told by colour and by shape
+    assert len({one.get_paths()[0].vertices.shape for one in certified}) == 2
 
 
 def test_bars_add_up_to_the_tasks(rows):

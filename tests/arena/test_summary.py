@@ -9,6 +9,7 @@ from dualarm_repro.arena.cases import KINDS
 from dualarm_repro.arena.judged import Outcome
 from dualarm_repro.arena.study import ARENA, CONTESTANTS, EVALUATIONS, PAPERS, WITNESS
 from dualarm_repro.arena.summary import (
+    CLOCK,
     SHIFT,
     by_group,
     contest,
@@ -61,6 +62,8 @@ def test_effort_counts_a_failure_as_all_evaluations(table):
     assert found.loc[B, "evaluations"] == pytest.approx(
         np.exp(np.log(spent + SHIFT).mean()) - SHIFT
     )
+    clock = found.loc[A, list(CLOCK)]
+    assert clock.tolist() == pytest.approx([2.0, 3.0, 101.5])  # of 1, 3 and 200 s
     assert (found["low"] <= found["evaluations"]).all()
     assert (found["evaluations"] <= found["high"]).all()
 

@@ -1,6 +1,7 @@
 """`methods`, `plan` with baselines, `time` and `arena`: what they say and how they end."""
 
 import json
+import re
 
 import pandas as pd
 import pytest
@@ -9,6 +10,7 @@ import yaml
 from dualarm_repro.arena import ARENA, Outcome
 from dualarm_repro.baselines import BASELINES
 from dualarm_repro.planning import METHODS
+from dualarm_repro.view import plan_report
 
 #: Both arms turn away from each other.
 FREE = """\
@@ -88,6 +90,7 @@ def test_time_of_a_motion_in_contact_says_so(dualarm, tmp_path):
         (("--speed", "2"), "speed"),
         (("--acceleration", "0"), "acceleration"),
         (("--rate", "-1"), "rate"),
+        (("--rate", "1e9"), "samples"),
     ],
 )
 def test_wrong_limits_end_in_one_line(dualarm, scene, tmp_path, arguments, told):
@@ -125,6 +128,7 @@ def test_arena_judges_chosen_planners_and_stores_nothing(dualarm):
         (("--method", "no-such"), "no-such"),
         (("--kind", "sea"), "sea"),
         (("--most", "3"), "--most"),
+        (("--method", "rrt-connect", "--jobs", "2"), "--jobs"),
     ],
 )
 def test_wrong_options_of_the_arena_end_in_one_line(dualarm, arguments, told):
@@ -132,3 +136,35 @@ def test_wrong_options_of_the_arena_end_in_one_line(dualarm, arguments, told):
     assert code == 2
     assert told in error
     assert error.count("\n") == 1
+
+
+def test_the_arena_is_a_stored_study_among_the_others(dualarm):
+    code, out, _ = dualarm("study", "--json")
+    assert code == 0
+    assert {one["name"]: one["title"] for one in json.loads(out)}["arena"] == ARENA.title
+
+
+def test_all_planners_are_compared_also_where_bodies_may_touch(dualarm, monkeypatch, tmp_path):
+    """Starts in contact are refused, unless that is allowed; then every motion is told as it is."""
+    chosen = {name: METHODS[name] for name in ("attraction-only", "apf-improved")}
+    monkeypatch.setattr(plan_report, "METHODS", chosen)
+    ball = "obstacles: {ball: {kind: sphere, center: [-0.4, 0, 0.5], radius: 0.3}}\n"
+    scene = tmp_path / "touching.yaml"
+    scene.write_text(FREE + ball, encoding="utf-8")
+    code, _, error = dualarm("plan", scene, "--method", "all")
+    assert code == 2
+    assert "ball" in error
+    code, out, _ = dualarm("plan", scene, "--method", "all", "--allow-collision", "--json")
+    assert code == 3
+    rows = {one["method"]: one for one in json.loads(out)}
+    assert set(rows) == set(chosen)
+    assert {one["outcome"] for one in rows.values()} <= {"", "COLLISION"}
+
+
+def test_time_tells_when_in_seconds(dualarm, scene, tmp_path):
+    path = tmp_path / "path.csv"
+    rows = {f"{arm}.q{j + 1}": [0.1, 0.2] for arm in ("left", "right") for j in range(6)}
+    pd.DataFrame(rows).to_csv(path, index=False)
+    _, out, _ = dualarm("time", scene, path, "--out", tmp_path / "out")
+    assert re.search(r"at \d\.\d{3} s$", out, re.MULTILINE)
+    assert "step" not in out

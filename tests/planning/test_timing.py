@@ -82,6 +82,8 @@ def test_deviation_from_the_polygon_is_small_and_told(motion):
         ({"acceleration": -1.0}, "acceleration"),
         ({"acceleration": float("nan")}, "acceleration"),
         ({"rate": 0.0}, "rate"),
+        ({"rate": 1e9}, "at most 200000 samples"),
+        ({"speed": 1e-6}, "at most 200000 samples"),
     ],
 )
 def test_wrong_limits_are_named(scene, change, told):

@@ -21,6 +21,8 @@ from ..field.control_points import end_effector
 
 #: Rows of a path are no further apart than this before the spline goes through them [rad].
 SPACING = 0.02
+#: Most samples of a timed motion: half an hour at a hundred a second.
+MOST_SAMPLES = 200_000
 #: Steps shorter than this are one row [rad].
 _SAME = 1e-9
 #: Grid of the reachability analysis.
@@ -92,7 +94,7 @@ def timed(
     ------
     InputError
         A limit that is not positive, obstacles that move by themselves, a path that rests or that
-        cannot be timed.
+        cannot be timed, or more samples than :data:`MOST_SAMPLES`.
     """
     for name, value in (("speed", speed), ("acceleration", acceleration), ("rate", rate)):
         if not (np.isfinite(value) and value > 0):
@@ -110,7 +112,11 @@ def timed(
     at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(polygon, axis=0), axis=1))])
     fastest = speed * np.concatenate([one.arm.velocity_limit for one in scene.arms])
     motion = _fastest(at, polygon, fastest, np.full(scene.nq, float(acceleration)))
-    count = max(int(np.ceil(motion.duration * rate)), 1)
+    samples = motion.duration * rate
+    if samples > MOST_SAMPLES:
+        expected = f"at most {MOST_SAMPLES} samples; the motion takes {motion.duration:.4g} s"
+        raise InputError("timing", "rate", rate, expected)
+    count = max(int(np.ceil(samples)), 1)
     time = np.linspace(0.0, motion.duration, count + 1)
     q, qd, qdd = (np.asarray(motion(time, order)) for order in (0, 1, 2))
     q[0], q[-1] = polygon[0], polygon[-1]
