@@ -55,6 +55,7 @@ def plan(
     Writes STEM.json, STEM_ARM.csv and the 3-D scene STEM.html, and says how closely bodies pass.
     """
     with progress.waiting(f"planning {scene.name} by {method}"):
+        from ..ledger.file_set import write_together
         from ..ledger.files import to_json, write_text
         from ..planning.methods import plan_file
         from ..view.plan_report import plan_scene, plan_summary
@@ -62,10 +63,14 @@ def plan(
         found = plan_file(scene, method)
         summary = {"scene": scene.name, "method": method, **plan_summary(found)}
         html = plan_scene(found, f"{scene.stem} by {method}").html()
-        files = [write_text(out / f"{scene.stem}.json", to_json(summary))]
-        for name, one in found.plans.items():
-            files.append(write_text(out / f"{scene.stem}_{name}.csv", one.to_frame().to_csv()))
-        page = write_text(out / f"{scene.stem}.html", html)
+        texts = {
+            f"{scene.stem}.json": to_json(summary),
+            **{f"{scene.stem}_{k}.csv": one.to_frame().to_csv() for k, one in found.plans.items()},
+            f"{scene.stem}.html": html,
+        }
+        *files, page = write_together(
+            out, lambda staged: [write_text(staged / name, text) for name, text in texts.items()]
+        )
     again = join(["dualarm", "plan", str(scene), "--method", method, "--out", str(out)])
     view = join(["python3", "-m", "webbrowser", page.resolve().as_uri()])
     if as_json:

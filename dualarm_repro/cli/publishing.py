@@ -55,6 +55,7 @@ def export_ledger(out: Out = Path("out"), as_json: AsJson = False) -> None:
     JSON, CSV, Parquet, citations, schemas, claims, and a zip of all.
     """
     from ..ledger import record
+    from ..ledger.file_set import write_together
     from ..ledger.headlines import statements
     from ..ledger.project import project
     from ..ledger.publication import publish
@@ -66,7 +67,8 @@ def export_ledger(out: Out = Path("out"), as_json: AsJson = False) -> None:
     records = [record(registry, item_id) for item_id in progress.each(ids, "reading the ledger")]
     documents = [paper.document for paper in registry.papers.values()]
     with progress.waiting("writing the ledger"):
-        files = publish(records, out, project(), documents, schemas(), stated)
+        about = (project(), documents, schemas(), stated)
+        files = write_together(out, lambda staged: publish(records, staged, *about))
     _print_files(files, as_json)
 
 

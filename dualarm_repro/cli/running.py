@@ -85,9 +85,10 @@ def _computed(
 
 def _files(evaluation: Evaluation, made: dict[str, Any], folder: Path) -> list[Path]:
     from ..ledger.export import export
+    from ..ledger.file_set import write_together
     from ..view.card import card_figure
 
-    return export(evaluation, made, folder, card_figure)
+    return write_together(folder, lambda staged: export(evaluation, made, staged, card_figure))
 
 
 def _print(made: dict[str, Any], evaluation: Evaluation, files: list[Path]) -> None:

@@ -1,0 +1,62 @@
+"""Several files that belong together: all of them appear, or none."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ..errors import OutputError
+
+
+def write_together(folder: Path, make: Callable[[Path], Sequence[Path]]) -> list[Path]:
+    """Call ``make`` with a folder beside ``folder`` and move the files when all are written.
+
+    Parameters
+    ----------
+    folder
+        Where the files belong; made if needed.
+    make
+        Writes files below the folder that it is given and returns their paths.
+
+    Returns
+    -------
+    list of Path
+        The files at their place, in the order of ``make``.
+
+    Raises
+    ------
+    OutputError
+        The folder or a file cannot be written.
+    """
+    beside = folder if folder.is_dir() else folder.parent
+    try:
+        beside.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=beside, prefix=f".{folder.name}.") as place:
+            staged = Path(place)
+            names = [path.relative_to(staged) for path in make(staged)]
+            with _uninterrupted():
+                for name in names:
+                    target = folder / name
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    (staged / name).replace(target)
+    except OutputError as error:  # names the temporary folder
+        raise OutputError(folder, error.field, error.value, error.expected) from None
+    except OSError as error:
+        raise OutputError(folder, "output", error.strerror, "a folder that can be written") from None
+    return [folder / name for name in names]
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Keep an interruption back for the moment in which files get their names."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
