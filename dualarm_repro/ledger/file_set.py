@@ -45,7 +45,9 @@ def write_together(folder: Path, make: Callable[[Path], Sequence[Path]]) -> list
     except OutputError as error:  # names the temporary folder
         raise OutputError(folder, error.field, error.value, error.expected) from None
     except OSError as error:
-        raise OutputError(folder, "output", error.strerror, "a folder that can be written") from None
+        raise OutputError(
+            folder, "output", error.strerror, "a folder that can be written"
+        ) from None
     return [folder / name for name in names]
 
 

@@ -207,3 +207,23 @@ def test_a_certificate_is_computed_from_the_stored_row_alone(toy, tmp_path):
     assert study.spot_check(5, seed=1) == []
     wrong = toy(**options, certificate=lambda settings, row: {"square": 1.1 * row["place"] ** 2})
     assert len(wrong.spot_check(5, seed=1)) == 5
+
+
+def test_a_cell_that_next_to_nothing_decides_is_not_compared(toy, tmp_path):
+    """Whether the stored row says so, or the new one on another processor."""
+    here = {"delicate": (0, 1), "offset": 0.0}
+
+    def descent(settings, rng):
+        note("robots/toy.yaml")
+        return {
+            "value": settings["k"] + here["offset"],
+            "delicate": settings["k"] in here["delicate"],
+        }
+
+    study = toy(compute=descent, nested=(), measured=(), knife_edge="delicate")
+    study.run(jobs=1, scratch=tmp_path)
+    assert study.spot_check(CELLS, seed=1) == []
+    here |= {"delicate": (0, 1, 2), "offset": 1e-3}
+    differing = study.spot_check(CELLS, seed=1)
+    assert len(differing) == CELLS - 3
+    assert not any(" cell 2:" in line for line in differing)
