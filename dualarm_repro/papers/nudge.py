@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..arms.kernels import Chain
+
 
 def nudge_arms(seed: int) -> None:
     """Change every length of every arm that this process loads from now on by an ulp or so.
@@ -15,7 +20,7 @@ def nudge_arms(seed: int) -> None:
 
     exact, rng = arm.chain_of, np.random.default_rng(seed)
 
-    def nudged(*arguments):  # type: ignore[no-untyped-def]
+    def nudged(*arguments: Any) -> Chain:
         chain = exact(*arguments)
         signs = rng.choice((-1.0, 1.0), chain.translation.shape)
         return chain._replace(translation=chain.translation * (1.0 + 4e-16 * signs))
