@@ -20,8 +20,8 @@ def nudge_arms(seed: int) -> None:
 
     exact, rng = arm.chain_of, np.random.default_rng(seed)
 
-    def nudged(*arguments: Any) -> Chain:
-        chain = exact(*arguments)
+    def nudged(name: str, model: Any, flange: int) -> Chain:
+        chain = exact(name, model, flange)
         signs = rng.choice((-1.0, 1.0), chain.translation.shape)
         return chain._replace(translation=chain.translation * (1.0 + 4e-16 * signs))
 
