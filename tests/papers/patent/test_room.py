@@ -87,7 +87,7 @@ def test_a_crossing_is_found_for_every_layout_and_stored():
     table = CROSSINGS.load()
     assert (table["draw"] >= 0).all()
     assert len(table) == 16
-    assert CROSSINGS.spot_check(1, seed=3) == []
+    assert spot_check(CROSSINGS, 1, seed=3).wrong == []
     case = table.iloc[0].to_dict()
     scenario = crossing(case)
     system = arm_pair(tipped_arm(case["robot"], case["tip"]), case["base_distance"])
