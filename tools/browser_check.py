@@ -118,6 +118,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--html", type=Path, default=ROOT / "_build" / "html")
     parser.add_argument("--pages", nargs="*", help="look at these alone; nothing is published")
     chosen = parser.parse_args(arguments)
+    if unknown := [n for n in chosen.pages or () if not (chosen.html / f"{n}.html").is_file()]:
+        parser.error(f"no page {unknown[0]} below {chosen.html}")
     if executable() is None:
         print(f"browser: NOT RUN, {WHY_NOT}", file=sys.stderr)
         return NOT_RUN

@@ -35,6 +35,7 @@ def main(path: str, cells: str, *item_ids: str) -> None:
         "items": {key: outcome(registry, key) for key in item_ids},
         "cells": sum(spot.cells for spot in checked),
         "wrong": [line for spot in checked for line in spot.wrong],
+        "unsettled": [line for spot in checked for line in spot.unsettled],
     }
     Path(path).write_text(json.dumps(made), encoding="utf-8")
 

@@ -158,10 +158,12 @@ def _report(
     drifted, changed = compare(made["items"])
     for line in [*without_effect, *drifted, *changed, *made["wrong"]]:
         print(f"  {setting.name}: {line}")
+    for line in made["unsettled"]:
+        print(f"  {setting.name}, by round-off of the inputs too: {line}")
     print(
         f"{setting.name:14s} {len(made['items']):4d} checked, {len(drifted):3d} drifted, "
         f"{len(changed):3d} verdicts changed; {made['cells']:3d} cells of studies, "
-        f"{len(made['wrong']):d} otherwise",
+        f"{len(made['wrong']):d} otherwise, {len(made['unsettled']):d} values by round-off",
         flush=True,
     )
     failing = [] if setting.name == STRESS else made["wrong"]

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import current_thread, main_thread
 
 from ..errors import OutputError
 from .files import write_text
@@ -67,11 +68,14 @@ def write_texts(folder: Path, texts: Mapping[str, str]) -> list[Path]:
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
     """Keep an interruption back for the moment in which files get their names."""
-    if not hasattr(signal, "pthread_sigmask"):
+    if current_thread() is not main_thread():  # interruptions reach the main thread alone
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    kept: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: kept.append(number))
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.signal(signal.SIGINT, before)
+    if kept:
+        signal.raise_signal(kept[0])

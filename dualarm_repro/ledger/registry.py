@@ -52,6 +52,12 @@ class Registry:
         imported; without it, whoever makes the registry registers them.
     reopen
         Gives the same registry in another process; default the registry itself, pickled.
+
+    Attributes
+    ----------
+    nudge : callable, optional
+        Makes the inputs of all that this process computes from now on differ by round-off, other
+        inputs for every seed; shows what hangs on it, see :mod:`.round_off`.
     """
 
     def __init__(
@@ -67,6 +73,7 @@ class Registry:
         self._proofs: dict[str, Prove] = {}
         self._studies: dict[str, Study] = {}
         self.reopen = reopen or (lambda: self)
+        self.nudge: Callable[[int], None] | None = None
 
     @property
     def documents(self) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..datafiles import data_path, opened
-from ..errors import DataFileError, InputError, LedgerError
+from ..errors import DataFileError, LedgerError
 from ..tracking import note, recording
 from .closure import closure, hash_file, hash_inputs
 from .comparison import Comparison
@@ -62,7 +62,8 @@ class Study:
         Columns, or what is in nested ones, that are compared otherwise than by digits.
     knife_edge
         Column that says of a cell that next to nothing decides its outcome: a spot check leaves it
-        out, since another processor may decide otherwise.
+        out, whether the stored or the new row says so, since another processor may decide
+        otherwise.
     certificate
         Settings and stored row of a cell to columns that follow from others of the same row. Where
         a search ends hangs on round-off; what holds at the place that it found does not, and a
@@ -87,6 +88,11 @@ class Study:
     peers: Mapping[str, str] = field(default_factory=dict)
     also: tuple[str, ...] = ()
     registry: Registry | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def nudge(self) -> Callable[[int], None] | None:
+        """Makes inputs of this process differ by round-off; None if the registry knows no way."""
+        return self._known().nudge
 
     @property
     def table_path(self) -> Path:
@@ -234,49 +240,12 @@ class Study:
         note(*meta["inputs"])
         return pd.read_parquet(opened(self.table_path))
 
-    def spot_check(self, count: int, seed: int, kind: str | None = None) -> list[str]:
-        """Recompute ``count`` cells drawn with ``seed``; say where they differ from the store.
-
-        Parameters
-        ----------
-        kind
-            Draw among the cells of this ``kind`` only.
-        """
-        if count < 1:
-            raise InputError("spot check", "count", count, "a positive number")
-        table, cells, known = self.load(), self.cells(), self.meta()["inputs"].keys()
-        edge = table[self.knife_edge] if self.knife_edge else [False] * len(cells)
-        among = [
-            k
-            for k, cell in enumerate(cells)
-            if kind in (None, cell.get("kind")) and not (edge[k] is True or edge[k] == 1)
-        ]
-        drawn = np.random.default_rng(seed).choice(among, min(count, len(among)), replace=False)
-        found = []
-        for index in sorted(int(k) for k in drawn):
-            with recording() as inputs:
-                made = self.cell(index, cells[index])
-            for name in inputs - known:
-                found.append(f"{self.name} cell {index}: opened {name}, which is not recorded")
-            stored = table.iloc[index].drop(cells[index].keys() - made.keys()).to_dict()
-            lines = self.differs(stored, made) + self._uncertified(cells[index], stored)
-            found += [f"{self.name} cell {index}: {line}" for line in lines]
-        return found
-
-    def _uncertified(self, settings: Mapping[str, Any], stored: Mapping[str, Any]) -> list[str]:
-        """What of a stored row does not follow from the rest of it."""
-        if self.certificate is None:
-            return []
-        again = through_json(self.certificate(settings, stored))
-        kept = {key: self._plain(stored).get(key) for key in again}
-        return differences({"obtained": kept}, {"obtained": again}, self.compared)
-
     def differs(self, stored: Mapping[str, Any], made: Mapping[str, Any]) -> list[str]:
         """Where a cell that was computed again differs from the stored one.
 
         Not compared are measured times, and columns of peers that are missing here.
         """
-        rows = self._plain(stored), self._plain(made)
+        rows = self.plain(stored), self.plain(made)
         absent = tuple(self.peers[name] for name in self.missing_peers())
         keys = (rows[0].keys() | rows[1].keys()) - set(self.measured)
         found = []
@@ -285,7 +254,8 @@ class Study:
             found += differences(before, now, self.compared)
         return found
 
-    def _plain(self, row: Mapping[str, Any]) -> dict[str, Any]:
+    def plain(self, row: Mapping[str, Any]) -> dict[str, Any]:
+        """A row as it comes back from the store, nested texts read."""
         plain = through_json(row)
         for key in self.nested:
             if isinstance(plain.get(key), str):

@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..ledger import REGISTRY, Registry
+from .nudge import nudge_arms
 
 if TYPE_CHECKING:
     from ..view.page import Page
+
+REGISTRY.nudge = nudge_arms
 
 
 def load() -> Registry:

@@ -30,7 +30,8 @@ def history_figure(curves: Mapping[str, np.ndarray], ylabel: str) -> Any:
             ax.plot(generation, values.T, color=color, lw=0.5, alpha=0.4)
             median = np.median(values, axis=0)
             ax.plot(generation, median, color=color, lw=2.2, label=f"{name}\n{median[-1]:.4g}")
-        ax.set(xlabel="generation", ylabel=ylabel, ylim=(0, None))
+        ax.set(xlabel="generation", ylabel=ylabel)
+        ax.set_ylim(-0.06 * ax.get_ylim()[1], None)  # room for the name of a curve that ends at 0
         ax.margins(x=0)
         name_ends(ax)
     return figure

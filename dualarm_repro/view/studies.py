@@ -28,10 +28,11 @@ def studies_page(registry: Registry, cells: int = CELLS, seed: int | None = None
         _require_equal([spot])
         meta, lacking = study.meta(), study.missing_peers()
         peers = f"; {', '.join(lacking)} not installed here, not compared" if lacking else ""
+        loose = f", {len(spot.unsettled)} values by round-off" if spot.unsettled else ""
         rows.append(
             f"<tr><td><code>{escape(study.name)}</code></td><td>{escape(study.title)}</td>"
             f"<td>{meta['cells']}</td><td>{meta['seed']}</td>"
-            f"<td>{spot.cells} recomputed, equal{escape(peers)}</td></tr>"
+            f"<td>{spot.cells} recomputed, equal{loose}{escape(peers)}</td></tr>"
         )
     head = "<tr><th>study</th><th>question</th><th>cells</th><th>seed</th><th>spot check</th></tr>"
     return Page(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import NamedTuple
+from warnings import catch_warnings
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -110,7 +111,8 @@ def timed(
     InputError
         A speed or acceleration that is not positive, or no timing.
     """
-    from toppra import SplineInterpolator, algorithm, constraint
+    with catch_warnings(action="ignore"):  # escapes in its docstrings, when they are compiled
+        from toppra import SplineInterpolator, algorithm, constraint
 
     for name, value in (("speed", speed), ("acceleration", acceleration)):
         if not value > 0:

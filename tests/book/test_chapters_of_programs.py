@@ -57,6 +57,9 @@ METHODS = {
     "pan/search": """
         Search initialise act evolve optimise
     """,
+    "pan/weld": """
+        arc_speed timed certified_separation interpolation_offset torch_angles retract effort
+    """,
 }
 
 

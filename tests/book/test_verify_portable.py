@@ -60,7 +60,7 @@ def test_a_setting_without_effect_fails(monkeypatch, capsys):
 
 def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
     moved = {"verdict": "undecidable", "obtained": None, "proofs": {}}
-    made = {"machine": {}, "items": {"xue.eq01": moved}, "cells": 3, "wrong": []}
+    made = {"machine": {}, "items": {"xue.eq01": moved}, "cells": 3, "wrong": [], "unsettled": []}
     monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
     assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
     out = capsys.readouterr().out
@@ -71,7 +71,7 @@ def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
 def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys):
     machine = {"fused": not machine_code.probe()["fused"]}
     wrong = ["toy cell 1: obtained.x moved"]
-    made = {"machine": machine, "items": {}, "cells": 3, "wrong": wrong}
+    made = {"machine": machine, "items": {}, "cells": 3, "wrong": wrong, "unsettled": []}
     monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
     assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 1
     out = capsys.readouterr().out
@@ -79,6 +79,9 @@ def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys):
     assert "toy cell 1" in out
     assert verify_portable.main(["--setting", verify_portable.STRESS, "xue.eq01"]) == 0
     assert "toy cell 1" in capsys.readouterr().out
+    made |= {"wrong": [], "unsettled": wrong}
+    assert verify_portable.main(["--setting", "nominal", "xue.eq01"]) == 0
+    assert "by round-off of the inputs too: toy cell 1" in capsys.readouterr().out
 
 
 def test_the_short_sample_holds_what_is_delicate(registry):
@@ -102,7 +105,7 @@ def test_spreads_name_what_moves():
 
 def test_a_process_that_fails_is_reported(tmp_path):
     with pytest.raises(RuntimeError, match="nominal: the process ended with"):
-        verify_portable.outcomes(SETTINGS["nominal"], ["xue.nothing"], tmp_path)
+        verify_portable.outcomes(SETTINGS["nominal"], ["xue.nothing"], tmp_path, 0)
 
 
 def test_unknown_setting():

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -70,3 +71,10 @@ def test_all_is_run_but_what_needs_a_browser(tmp_path, installer, browser, code,
     assert ("browser" in asked) == (installer == 0)
     assert {"test", "lint", "book"} <= set(asked)
     assert ("claims" in asked) == (code == 0)
+
+
+def test_a_page_that_does_not_exist_is_one_line(tmp_path):
+    command = [sys.executable, ROOT / "tools" / "browser_check.py", "--html", tmp_path]
+    done = subprocess.run([*command, "--pages", "nowhere"], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1].endswith(f"error: no page nowhere below {tmp_path}")

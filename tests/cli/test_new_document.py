@@ -89,7 +89,14 @@ def test_the_tests_of_the_clone_accept_it(clone):
 
 def test_its_pages_are_in_the_book_and_run(clone):
     contents = (clone / "book/_toc.yml").read_text()
-    assert "- file: pan/search\n      - file: smith/index\n        sections:\n" in contents
+    assert "      - file: smith/index\n        sections:\n" in contents
+    folders = re.findall(r"- file: (\w+)/\w+", contents)
+    documents, at = (
+        {path.stem for path in (ROOT / "data/papers").glob("*.yaml")},
+        folders.index("smith"),
+    )
+    assert folders[at - 1] in documents
+    assert not documents & set(folders[at:]), "after the last page of the documents"
     for page in ("index", "first"):
         cells = CELL.findall((clone / f"book/smith/{page}.md").read_text())
         made = run(clone, "-c", "\n".join(cells))

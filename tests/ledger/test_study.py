@@ -1,12 +1,14 @@
 """Stored studies: independent of workers and interruptions, never stale unseen."""
 
 import json
+import os
 
 import pandas as pd
 import pytest
 
 from dualarm_repro.errors import DataFileError, InputError, LedgerError
 from dualarm_repro.ledger import Registry, Study, closure, study
+from dualarm_repro.ledger.spot import spot_check
 from dualarm_repro.tracking import note
 
 CELLS = 40
@@ -156,11 +158,11 @@ def _forge(study):
 
 def test_spot_check_finds_a_forged_number(toy, tmp_path):
     toy().run(scratch=tmp_path)
-    assert toy().spot_check(10, seed=1) == []
+    assert spot_check(toy(), 10, seed=1).wrong == []
     _forge(toy())
-    assert len(toy().spot_check(10, seed=1)) == 10
+    assert len(spot_check(toy(), 10, seed=1).wrong) == 10
     with pytest.raises(InputError, match="count"):
-        toy().spot_check(0, seed=1)
+        spot_check(toy(), 0, seed=1)
 
 
 def test_spot_check_finds_an_input_that_is_not_recorded(toy, tmp_path):
@@ -168,7 +170,7 @@ def test_spot_check_finds_an_input_that_is_not_recorded(toy, tmp_path):
     meta = json.loads(toy().meta_path.read_text())
     meta["inputs"] = {}
     toy().meta_path.write_text(json.dumps(meta))
-    (line,) = toy().spot_check(1, seed=1)
+    (line,) = spot_check(toy(), 1, seed=1).wrong
     assert "opened robots/toy.yaml, which is not recorded" in line
 
 
@@ -177,7 +179,7 @@ def test_columns_of_a_peer_that_is_missing(toy, tmp_path):
     _forge(toy())
     lacking = toy(peers={"no_such_package": "value"})
     assert lacking.missing_peers() == ["no_such_package"]
-    assert lacking.spot_check(10, seed=1) == []
+    assert spot_check(lacking, 10, seed=1).wrong == []
     with pytest.raises(LedgerError, match="no_such_package not installed"):
         lacking.run(scratch=tmp_path)
 
@@ -204,6 +206,52 @@ def test_a_certificate_is_computed_from_the_stored_row_alone(toy, tmp_path):
     options = {"compute": search, "measured": ("place", "square"), "nested": ()}
     study = toy(**options, certificate=certificate)
     study.run(jobs=1, scratch=tmp_path)
-    assert study.spot_check(5, seed=1) == []
+    assert spot_check(study, 5, seed=1).wrong == []
     wrong = toy(**options, certificate=lambda settings, row: {"square": 1.1 * row["place"] ** 2})
-    assert len(wrong.spot_check(5, seed=1)) == 5
+    assert len(spot_check(wrong, 5, seed=1).wrong) == 5
+
+
+def test_a_cell_that_next_to_nothing_decides_is_not_compared(toy, tmp_path):
+    """Whether the stored row says so, or the new one on another processor."""
+    here = {"delicate": (0, 1), "offset": 0.0}
+
+    def descent(settings, rng):
+        note("robots/toy.yaml")
+        return {
+            "value": settings["k"] + here["offset"],
+            "delicate": settings["k"] in here["delicate"],
+        }
+
+    study = toy(compute=descent, nested=(), measured=(), knife_edge="delicate")
+    study.run(jobs=1, scratch=tmp_path)
+    assert spot_check(study, CELLS, seed=1).wrong == []
+    here |= {"delicate": (0, 1, 2), "offset": 1e-3}
+    differing = spot_check(study, CELLS, seed=1).wrong
+    assert len(differing) == CELLS - 3
+    assert not any(" cell 2:" in line for line in differing)
+
+
+def _nudge(seed):
+    os.environ["TOY_NUDGE"] = str(seed + 1)
+
+
+def _along_a_crease(settings, rng):
+    note("robots/toy.yaml")
+    shift = float(os.environ.get("TOY_NUDGE", 0))
+    return {"end": settings["k"] + shift, "kept": settings["k"]}
+
+
+def test_what_round_off_of_the_inputs_moves_is_told_apart(toy, tmp_path, monkeypatch):
+    study = toy(compute=_along_a_crease, nested=(), measured=())
+    study.run(jobs=1, scratch=tmp_path)
+    assert spot_check(study, 2, seed=1)[2:] == ([], [])
+    table = pd.read_parquet(study.table_path)
+    table[["end", "kept"]] += 0.1
+    monkeypatch.setattr(pd, "read_parquet", lambda _: table)
+    spot = spot_check(study, 1, seed=1)
+    assert len(spot.wrong) == 2, "without a nudge nothing is excused"
+    study.registry.nudge = _nudge
+    spot = spot_check(study, 1, seed=1)
+    assert [line.split(": ")[1] for line in spot.unsettled] == ["obtained.end"]
+    assert [line.split(": ")[1] for line in spot.wrong] == ["obtained.kept"]
+    assert "TOY_NUDGE" not in os.environ, "nudged in processes of their own"

@@ -15,6 +15,7 @@ from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import pseudo_inverse
 from dualarm_repro.control.task_search import DEEP, KEPT, TRACKED, score
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
+from dualarm_repro.ledger.spot import spot_check
 from dualarm_repro.papers import load
 from dualarm_repro.papers.patent.document import (
     CONTROL_STEP,
@@ -86,7 +87,7 @@ def test_a_crossing_is_found_for_every_layout_and_stored():
     table = CROSSINGS.load()
     assert (table["draw"] >= 0).all()
     assert len(table) == 16
-    assert CROSSINGS.spot_check(1, seed=3) == []
+    assert spot_check(CROSSINGS, 1, seed=3).wrong == []
     case = table.iloc[0].to_dict()
     scenario = crossing(case)
     system = arm_pair(tipped_arm(case["robot"], case["tip"]), case["base_distance"])
@@ -111,7 +112,7 @@ def test_stored_study_is_current_and_large_enough():
     counted = table[table["counts"].astype(bool)]
     assert len(counted) >= 500
     assert 20 < counted["collides"].sum() < len(counted)
-    assert TASKS.spot_check(6, seed=1) == []
+    assert spot_check(TASKS, 6, seed=1).wrong == []
 
 
 def test_symbolic_matrix_is_symmetric():

@@ -36,13 +36,16 @@ _PRESSES = 1e-9  # multiplier from which on an inequality presses
     ],
 )
 def energy_follows_speed(assumed: Assumed) -> Result:
-    """Mean joint speed and energy by inverse dynamics over the random tasks, in disjoint pairs."""
+    """Mean joint speed and energy by inverse dynamics over the random tasks, in disjoint pairs.
+
+    A task of the first half is paired with one of the second.
+    """
     table = TASKS.load()
     table = table[table["counts"].astype(bool)]
     measure = assumed["energy_measure"]
     speed, energy = (table[f"naive_{key}"].to_numpy(float) for key in ("speed", measure))
-    even = len(table) // 2 * 2
-    faster, dearer = (values[:even:2] > values[1:even:2] for values in (speed, energy))
+    half = len(table) // 2
+    faster, dearer = (values[:half] > values[half : 2 * half] for values in (speed, energy))
     agree = faster == dearer
     both = table[table["pair_normal_completed"].eq(True)]
     ratio = {
@@ -57,9 +60,9 @@ def energy_follows_speed(assumed: Assumed) -> Result:
     }
     pairs = (
         (
-            f"tasks {2 * k} and {2 * k + 1}",
+            f"tasks {k} and {half + k}",
             bool(agree[k]),
-            {"speeds": speed[2 * k : 2 * k + 2].tolist()},
+            {"speeds": [speed[k], speed[half + k]]},
         )
         for k in range(len(agree))
     )
