@@ -23,6 +23,7 @@ FLOORS = (
         "kernel",
         "differences",
         "instrument",
+        "quiet_import",
     ),
     ("ledger",),
     ("arms",),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..arms.kernels import Chain
+    from ..arms.sliding import SlidingChain
 
 
 def nudge_arms(seed: int) -> None:
@@ -20,7 +21,7 @@ def nudge_arms(seed: int) -> None:
 
     exact, rng = arm.chain_of, np.random.default_rng(seed)
 
-    def nudged(name: str, model: Any, flange: int) -> Chain:
+    def nudged(name: str, model: Any, flange: int) -> Chain | SlidingChain:
         chain = exact(name, model, flange)
         signs = rng.choice((-1.0, 1.0), chain.translation.shape)
         return chain._replace(translation=chain.translation * (1.0 + 4e-16 * signs))

@@ -1,8 +1,8 @@
 """Certified distances of the exact shapes of an arm from each other, where capsules do not tell.
 
 Capsules around two links of one arm overlap long before the links touch, so that some are not
-watched (``never`` and ``not needed`` of :class:`..arms.exclusions.Evidence`). What the others say
-is then no lower bound.
+watched (``never`` of :class:`..arms.exclusions.Evidence`). What the others say is then no lower
+bound.
 Here the shapes of the URDF themselves are measured by coal along a motion. A point of a shape lies
 in a capsule of its joint and moves no further than the core of one by more than its radius allows:
 the bound of :mod:`.certificate` holds with levers that are longer by the radius.
@@ -23,7 +23,7 @@ from .posing import links_of
 from .scene import Scene
 
 #: Evidence of pairs whose capsules overlap though the shapes are apart.
-_FALSE_ALARMS = (Evidence.NEVER, Evidence.NOT_NEEDED)
+_FALSE_ALARM = Evidence.NEVER
 #: Samples along a motion from which it is halved where that is needed.
 _LOOKS = 17
 _BUDGET = 20_000
@@ -70,7 +70,7 @@ def exact_minimum(
 
 def _half_watched(scene: Scene, placed: PlacedArm) -> list[tuple[int, int]]:
     """Pairs of exact shapes of which capsules are not watched against each other."""
-    silent = [e for e in placed.arm.exclusions or () if e.evidence in _FALSE_ALARMS]
+    silent = [e for e in placed.arm.exclusions or () if e.evidence is _FALSE_ALARM]
     if not silent or placed.arm.solids is None:
         return []
     numbers = {one.name: k for k, one in enumerate(placed.arm.solids.geometryObjects)}

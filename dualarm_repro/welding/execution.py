@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import NamedTuple
-from warnings import catch_warnings
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ..errors import InputError
+from ..quiet_import import quietly
 from .cell import ROBOTS, Cell
 from .motion import periodic_derivative
 from .placement import Jobs
@@ -111,9 +111,8 @@ def timed(
     InputError
         A speed or acceleration that is not positive, or no timing.
     """
-    with catch_warnings(action="ignore"):  # escapes in its docstrings, when they are compiled
-        from toppra import SplineInterpolator, algorithm, constraint
-
+    toppra = quietly("toppra")
+    constraint = toppra.constraint
     for name, value in (("speed", speed), ("acceleration", acceleration)):
         if not value > 0:
             raise InputError("weld", name, value, "a positive number")
@@ -122,14 +121,16 @@ def timed(
     theta = 2 * np.pi * np.arange(cell.count + 1) / cell.count
     arc = CubicSpline(theta, np.append(rate, rate[0]), bc_type="periodic").antiderivative()(theta)
     whole = np.column_stack([np.vstack([path, path[:1]]), arc])
-    curve = SplineInterpolator(theta, whole)
+    curve = toppra.SplineInterpolator(theta, whole)
     fastest = np.append(speed_limits(cell).ravel(), speed)
     most = np.append(np.full(path.shape[1], acceleration), 1e3)
     limits = [
         constraint.JointVelocityConstraint(np.column_stack([-fastest, fastest])),
         constraint.JointAccelerationConstraint(np.column_stack([-most, most])),
     ]
-    method = algorithm.TOPPRA(limits, curve, gridpoints=np.linspace(0, theta[-1], samples + 1))
+    method = toppra.algorithm.TOPPRA(
+        limits, curve, gridpoints=np.linspace(0, theta[-1], samples + 1)
+    )
     motion = method.compute_trajectory()
     if motion is None:
         raise InputError("weld", "path", cell.count, "a path that can be timed within the limits")

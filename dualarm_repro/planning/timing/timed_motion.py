@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ...quiet_import import quietly
 from ...scene import JointPath, Scene, densify
 from ..field.control_points import end_effector
 
@@ -130,14 +131,14 @@ def _polygon(scene: Scene, paths: Mapping[str, JointPath]) -> np.ndarray:
 
 
 def _fastest(at: np.ndarray, path: np.ndarray, speed: np.ndarray, acceleration: np.ndarray) -> Any:
-    from toppra import SplineInterpolator, algorithm, constraint
-
+    toppra = quietly("toppra")
+    constraint = toppra.constraint
     limits = [
         constraint.JointVelocityConstraint(np.column_stack([-speed, speed])),
         constraint.JointAccelerationConstraint(np.column_stack([-acceleration, acceleration])),
     ]
     grid = np.linspace(0.0, at[-1], max(_GRID, 2 * len(at)) + 1)
-    method = algorithm.TOPPRA(limits, SplineInterpolator(at, path), gridpoints=grid)
+    method = toppra.algorithm.TOPPRA(limits, toppra.SplineInterpolator(at, path), gridpoints=grid)
     motion = method.compute_trajectory()
     if motion is None:
         raise InputError("timing", "path", len(path), "a path that can be timed within the limits")
