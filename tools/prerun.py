@@ -164,6 +164,11 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
     log.setLevel(logging.CRITICAL)  # failures are reported below, once
     run = load_executor("local-parallel", cache, log)
     result = run.run_and_cache(filter_uris=uris, timeout=timeout)
+    stored = {entry.uri for entry in cache.list_cache_records()}
+    if lost := sorted({*result.succeeded} - stored):  # seen once, with two workers storing at once
+        again = run.run_and_cache(filter_uris=lost, timeout=timeout)
+        result.excepted.extend(again.excepted)
+        result.errored.extend(again.errored)
     return {
         str(Path(uri).relative_to(book)): _ANSI.sub(
             "", cache.get_project_record(uri).traceback or "could not be read or started"
