@@ -28,8 +28,8 @@ _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
 #: Links that the library makes; Sphinx looks after those of the text.
 _OUR_LINKS = ".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"
-#: Where verdicts are told in words.
-_VERDICTS = ".ledger-legend, .ledger-line, .ledger-findings"
+#: Where an output may say so: verdicts in words, and code such as `if not found:`.
+_NO_FAILURE = ".ledger-legend, .ledger-line, .ledger-findings, .ledger-source"
 
 
 def read_pages(html: Path) -> dict[str, markup.HtmlElement]:
@@ -200,10 +200,10 @@ def failed_outputs(pages: Pages) -> list[str]:
 
 
 def _said(output: Any) -> str:
-    """Text of an output but for verdicts in words, one of which says "not found"."""
+    """Text of an output but for what may say "not found" without a failure."""
     text = output.text_content()
-    for verdicts in _select(output, _VERDICTS):
-        text = text.replace(verdicts.text_content(), "")
+    for part in _select(output, _NO_FAILURE):
+        text = text.replace(part.text_content(), "")
     return text
 
 

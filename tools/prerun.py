@@ -164,11 +164,17 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
     log.setLevel(logging.CRITICAL)  # failures are reported below, once
     run = load_executor("local-parallel", cache, log)
     result = run.run_and_cache(filter_uris=uris, timeout=timeout)
+    stored = {entry.uri for entry in cache.list_cache_records()}
+    excepted, errored = [*result.excepted], [*result.errored]
+    # Two kernels that start at once may choose one port, and two workers may store at once.
+    if again := sorted({*result.succeeded} - stored | {*errored}):
+        second = run.run_and_cache(filter_uris=again, timeout=timeout)
+        excepted, errored = [*excepted, *second.excepted], [*second.errored]
     return {
         str(Path(uri).relative_to(book)): _ANSI.sub(
             "", cache.get_project_record(uri).traceback or "could not be read or started"
         )
-        for uri in sorted(result.excepted + result.errored)
+        for uri in sorted(excepted + errored)
     }
 
 

@@ -233,8 +233,15 @@ def test_bytes_are_limited(html):
     assert line.startswith("book: ")
 
 
-def test_the_words_of_a_verdict_are_no_failure(html):
-    said = '<dl class="ledger-line"><dd>not found in 300 tries</dd></dl>'
+@pytest.mark.parametrize(
+    "said",
+    [
+        '<dl class="ledger-line"><dd>not found in 300 tries</dd></dl>',
+        '<details class="ledger-source"><pre>if not found:</pre></details>',
+    ],
+    ids=["a verdict", "code"],
+)
+def test_words_of_a_verdict_and_of_code_are_no_failure(html, said):
     pages = change(html, "toy/page.html", "<pre>2.784</pre>", said)
     assert check_book.failed_outputs(pages) == []
     pages = change(html, "toy/page.html", said, said + "<p>file not found</p>")

@@ -87,6 +87,33 @@ def test_only_pages_whose_key_changed_are_executed_again(book, tmp_path, monkeyp
     assert {name for name in after if after[name] != before[name]} == {"good"}
 
 
+def test_a_page_that_could_not_be_started_or_stored_is_executed_again(book, tmp_path, monkeypatch):
+    prerun.isolate_kernels(tmp_path / "ipython")
+    (book / "bad" / "page.md").write_text(NOTEBOOK.format(code="print(1)"))
+    asked, load = [], prerun.load_executor
+
+    class Forgetful:
+        def __init__(self, *arguments):
+            self.run, self.cache = load(*arguments), arguments[1]
+
+        def run_and_cache(self, filter_uris, timeout):
+            asked.append([Path(uri).stem for uri in filter_uris])
+            result = self.run.run_and_cache(filter_uris=filter_uris, timeout=timeout)
+            for entry in self.cache.list_cache_records() if len(asked) == 1 else ():
+                if Path(entry.uri).stem in ("good", "intro"):
+                    self.cache.remove_cache(entry.pk)
+                if Path(entry.uri).stem == "intro":
+                    result.succeeded.remove(entry.uri)
+                    result.errored.append(entry.uri)
+            return result
+
+    monkeypatch.setattr(prerun, "load_executor", Forgetful)
+    assert prerun.prerun(book, tmp_path / "cache", timeout=60) == {}
+    assert asked[1:] == [["good", "intro"]]
+    found = {Path(r.uri).stem for r in get_cache(tmp_path / "cache").list_cache_records()}
+    assert found == {"intro", "good", "page"}
+
+
 def test_all_failures_are_named_and_the_rest_is_cached(book, tmp_path, monkeypatch):
     monkeypatch.delenv("IPYTHONDIR", raising=False)
     prerun.isolate_kernels(tmp_path / "ipython")

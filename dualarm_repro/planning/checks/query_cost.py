@@ -24,7 +24,7 @@ def query_operations(
     """Mean operations of the distance of a point to the hull, and to all capsules of the arm.
 
     One point for each of the configurations (N, nq), to which the first rows of ``track`` belong,
-    half a metre from the middle of the hull; see :mod:`...instrument` for what is counted.
+    half a metre from the middle of the hull; see ``dualarm_repro.instrument`` for what counts.
     """
     radii, hulls, capsules = links_of(placed.arm).radius, [], []
     cost = Instrument().cost

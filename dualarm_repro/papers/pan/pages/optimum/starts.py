@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,14 +11,13 @@ from .....ledger import REGISTRY, Assumed, Bounded, Result
 from .....ledger.captions import captions
 from .....scene.scene import FLOOR
 from .....view.landscape import statuses_figure
-from .....welding import Placement, Status, extreme_position
+from .....welding import Status
 from .....welding.landscape import reaches_point
 from .....welding.placement import blocks
-from ...reading import SPACING, STARTS, Job, Measure, Problem, nothing_feasible, surveyed
+from ...reading import Job, Measure, Problem, surveyed
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
-_DRAWS = 16  # of the assumptions, where each needs a search of its own
 #: What the constraints exclude is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
@@ -98,29 +96,21 @@ def _contacts(job: Job, points: np.ndarray) -> pd.DataFrame:
 
 @checks(
     "pan.claim_meets_singularity",
-    samples=_DRAWS,
     rules=[
         Bounded(
-            "ratio",
-            "smallest manipulability met on any seam, over the threshold of a singularity",
-            high=1.0,
+            "singular",
+            "positions with complete paths on which a robot passes a singular posture",
+            low=1,
         )
     ],
 )
 def meets_singularity(assumed: Assumed) -> Result:
-    """The position whose seam passes nearest to a singularity, the threshold left aside."""
+    """Positions of the grid at which all robots have paths and one of these is singular."""
     task = Problem.of(assumed, _ANY_MEASURE)
-    placement = Placement(replace(task.job.cell(), threshold=0.0), task.measure.reading())
-    rule, known = "nearest_singularity", surveyed(task)
-    found = extreme_position(placement, task.box, rule, spacing=SPACING, starts=STARTS, known=known)
-    if not found.fitness:
-        return nothing_feasible("ratio", "position")
-    smallest = 1.0 / found.fitness
+    grid = surveyed(task)
+    singular = int((grid.status == Status.SINGULAR).sum())
+    paths = np.isin(grid.status, (Status.FEASIBLE, Status.SINGULAR, Status.COLLISION))
     return Result(
-        obtained={
-            "ratio": float(smallest / task.job.singularity_threshold),
-            "smallest": float(smallest),
-            "position": found.position.tolist(),
-        },
+        obtained={"singular": singular, "with_paths": int(paths.sum())},
         caption=caption("claim_meets_singularity", threshold=task.job.singularity_threshold),
     )
