@@ -80,3 +80,14 @@ def test_an_error_names_the_folder_that_was_asked_for(tmp_path):
     with pytest.raises(OutputError) as found:
         write_together(tmp_path / "out", make)
     assert found.value.source == tmp_path / "out"
+
+
+def test_if_one_file_cannot_be_moved_all_is_as_before(tmp_path):
+    folder = tmp_path / "out"
+    (folder / "b.csv" / "taken").mkdir(parents=True)
+    (folder / "a.json").write_text("old")
+    with pytest.raises(OutputError):
+        write_together(folder, texts)
+    assert (folder / "a.json").read_text() == "old"
+    assert inside(folder) == ["a.json"]
+    assert not (folder / "below").exists()
