@@ -8,12 +8,13 @@ into SIMD code.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ..kernel import kernel
-from .trigonometry import sincos
+from .trigonometry import FAR, sincos
 
 LANES = 64
 # Places in the buffer: sine and cosine of one joint, rotation (row major), translation, Jacobian.
@@ -155,8 +156,18 @@ def manipulabilities(chain, q):
 @kernel
 def _load_sincos(q, start, rows, joint, w):
     """Sine and cosine of one joint for a block; lanes past the end keep what they held."""
+    far = False
     for k in range(rows):
-        w[k] = q[start + k, joint]
+        x = q[start + k, joint]
+        far |= abs(x) > FAR
+        w[k] = x
+    if far:  # many turns of a joint that turns for ever
+        for k in range(LANES):
+            x = w[k]
+            s, c = sincos(x) if abs(x) <= FAR else (math.sin(x), math.cos(x))
+            w[k] = s
+            w[_COS + k] = c
+        return
     for k in range(LANES):
         s, c = sincos(w[k])
         w[k] = s

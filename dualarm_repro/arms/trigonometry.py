@@ -19,11 +19,12 @@ _P2 = 6.07710050630396597660e-11
 _P3 = 2.02226624871116645580e-21
 _P4 = 8.47842766036889956997e-32
 _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to the nearest integer
+FAR = 1.6e6  #: [rad] from where on k times a part is not exact
 
 
 @kernel
 def sincos(x):
-    """sin x and cos x [x in rad] to 2.3e-16 for |x| < 1.6e6; beyond, to the rounding of ``x``."""
+    """sin x and cos x [x in rad] to 2.3e-16 for |x| < FAR."""
     k = (x * 0.6366197723675814 + _ROUND) - _ROUND
     r = ((x - k * _P1) - k * _P2) - k * _P3 - k * _P4
     t = r * r

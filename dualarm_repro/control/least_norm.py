@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..kernel import kernel
-from .neural.saddle import backward, factorise, forward
+from .neural.saddle import solve_multipliers
 
 
 @kernel
@@ -19,20 +17,9 @@ def least_norm(target, A, b, x, multipliers):
         x = target - A^T multipliers; NaN where the rows of A depend on each other.
     """
     m, n = A.shape
-    S = np.empty((m, m))
     for i in range(m):
-        total = -b[i]
-        for k in range(n):
-            total += A[i, k] * target[k]
-        multipliers[i] = total
-        for j in range(i + 1):
-            total = 0.0
-            for k in range(n):
-                total += A[i, k] * A[j, k]
-            S[i, j] = total
-    factorise(S)
-    forward(S, multipliers)
-    backward(S, multipliers)
+        multipliers[i] = b[i]
+    solve_multipliers(A, target, multipliers)
     for k in range(n):
         total = target[k]
         for i in range(m):

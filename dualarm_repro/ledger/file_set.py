@@ -39,11 +39,7 @@ def write_together(folder: Path, make: Callable[[Path], Sequence[Path]]) -> list
         with TemporaryDirectory(dir=beside, prefix=f".{folder.name}.") as place:
             staged = Path(place)
             names = [path.relative_to(staged) for path in make(staged)]
-            with _uninterrupted():
-                for name in names:
-                    target = folder / name
-                    target.parent.mkdir(parents=True, exist_ok=True)
-                    (staged / name).replace(target)
+            move_together(staged, folder, names)
     except OutputError as error:  # names the temporary folder
         raise OutputError(folder, error.field, error.value, error.expected) from None
     except OSError as error:
@@ -63,6 +59,42 @@ def write_texts(folder: Path, texts: Mapping[str, str]) -> list[Path]:
     return write_together(
         folder, lambda staged: [write_text(staged / name, text) for name, text in texts.items()]
     )
+
+
+def move_together(staged: Path, folder: Path, names: Sequence[Path]) -> None:
+    """Move files to their places; if one cannot be moved, all is as before.
+
+    Parameters
+    ----------
+    names
+        Paths of the files below both folders.
+
+    Raises
+    ------
+    OSError
+        One cannot be moved.
+    """
+    places = [folder / name for name in names]
+    before = {place: place.read_bytes() if place.is_file() else None for place in places}
+    folders = [f for place in places for f in reversed(place.parents) if not f.exists()]
+    moved: list[Path] = []
+    with _uninterrupted():
+        try:
+            for name, place in zip(names, places, strict=True):
+                place.parent.mkdir(parents=True, exist_ok=True)
+                (staged / name).replace(place)
+                moved.append(place)
+        except OSError:
+            for place in moved:
+                content = before[place]
+                if content is None:
+                    place.unlink(missing_ok=True)
+                else:
+                    place.write_bytes(content)
+            for made in reversed(list(dict.fromkeys(folders))):
+                if made.is_dir():
+                    made.rmdir()
+            raise
 
 
 @contextmanager

@@ -20,6 +20,7 @@ import yaml
 
 from .. import papers
 from ..errors import InputError, LedgerError, OutputError
+from ..ledger.file_set import move_together
 from .templates import fill
 
 _COMMAND = "new-document"
@@ -184,24 +185,7 @@ def _move(staged: Path, root: Path, copied: Mapping[Path, bytes]) -> list[Path]:
     before = {n: (root / n).read_bytes() if (root / n).is_file() else None for n in names}
     if changed := [str(name) for name in names if before[name] != copied.get(name)]:
         raise LedgerError(f"{_COMMAND}: changed meanwhile, so nothing is written: {changed[0]}")
-    folders = [f for n in names for f in reversed((root / n).parents) if not f.exists()]
-    moved: list[Path] = []
-    try:
-        for name in names:
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            moved.append(name)
-            (staged / name).replace(root / name)
-    except OSError:
-        for name in moved:
-            content = before[name]
-            if content is None:
-                (root / name).unlink(missing_ok=True)
-            else:
-                (root / name).write_bytes(content)
-        for folder in reversed(list(dict.fromkeys(folders))):
-            if folder.is_dir():
-                folder.rmdir()
-        raise
+    move_together(staged, root, names)
     return [root / name for name in names]
 
 

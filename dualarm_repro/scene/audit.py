@@ -22,6 +22,8 @@ from ..arms.fit.triangles import triangles_of
 from ..errors import DualArmError, UnsupportedArmError
 from .bodies import PlacedArm
 from .clearance import distances
+from .exact_shapes import exact_minimum
+from .moving import JointPath
 from .scene import Scene
 
 _FOR_GOOD = (Evidence.ALWAYS, Evidence.HOME)
@@ -157,6 +159,14 @@ def _touching(arm: Arm, q: np.ndarray, sample: np.ndarray | None = None) -> np.n
 
 
 def _flagged(arm: Arm, q: np.ndarray) -> np.ndarray:
-    """Whether watched capsules of the arm alone overlap (N,)."""
-    scene = Scene([PlacedArm("arm", arm)])
-    return np.asarray((distances(scene, q) <= 0.0).any(axis=1))
+    """Whether watched capsules of the arm alone overlap, or exact shapes of which they do not tell
+    touch (N,)."""
+    placed = PlacedArm("arm", arm)
+    scene = Scene([placed])
+    flagged = np.asarray((distances(scene, q) <= 0.0).any(axis=1))
+    for k in np.flatnonzero(~flagged):
+        exact = exact_minimum(scene, placed, JointPath([q[k]]), 0.0, np.inf)
+        if exact is None:
+            break
+        flagged[k] = exact[0].upper <= 0.0
+    return flagged

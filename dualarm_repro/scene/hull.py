@@ -8,6 +8,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy import spatial
 
+from ..arms.fit.triangles import convex
 from ..errors import InputError
 from .polytope import Polytope
 from .quantities import array_of, frozen
@@ -70,9 +71,7 @@ class ConvexHull:
 
     def coal(self) -> tuple[coal.Convex, coal.Transform3s]:
         """Geometry and placement for coal."""
-        points = coal.StdVec_Vec3s()
-        points.extend(list(self.vertices))
-        return coal.Convex.convexHull(points, True, "Qt"), coal.Transform3s()
+        return convex(self.vertices), coal.Transform3s()
 
 
 def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int) -> np.ndarray:

@@ -32,7 +32,7 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
         A half-space, which has no end.
     """
     flange, bodies = arm.model.frames[arm.flange_id], pin.GeometryModel()
-    called = _name_of_the_tool(arm) if shapes else TOOL
+    called = name_of_tool(arm) if shapes else TOOL
     for k, shape in enumerate(shapes):
         if isinstance(shape, HalfSpace):
             raise InputError(f"arm {arm.name}", "tool", "halfspace", "a shape with an end")
@@ -58,8 +58,8 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
     return held
 
 
-def _name_of_the_tool(arm: Arm) -> str:
-    """``tool``, unless a link is called so."""
+def name_of_tool(arm: Arm) -> str:
+    """Name of what is put at the flange: ``tool``, unless a link is called so."""
     links, name = {link_of(one.name) for one in arm.geometry.geometryObjects}, TOOL
     while name in links:
         name = f"held_{name}"

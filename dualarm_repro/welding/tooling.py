@@ -12,6 +12,7 @@ from ..arms import Arm
 from ..arms.capsules import segment_capsule
 from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
+from ..scene.tool import name_of_tool
 from .posture import smallest_rotations
 
 #: Grasp to the angle between the approach of the flange and the axis of the pipe [rad].
@@ -168,10 +169,10 @@ def with_tool(arm: Arm, cores: np.ndarray, radius: float) -> Arm:
     frame = arm.model.frames[arm.flange_id]
 
     def geometry() -> pin.GeometryModel:
-        extended = arm.geometry.copy()
+        extended, name = arm.geometry.copy(), name_of_tool(arm)
         for k, (start, end) in enumerate(cores):
             placement, shape = segment_capsule(start, end, radius)
-            placed = f"tool_{k}", frame.parentJoint, frame.placement * placement, shape
+            placed = f"{name}_{k}", frame.parentJoint, frame.placement * placement, shape
             extended.addGeometryObject(pin.GeometryObject(*placed))
         return extended
 

@@ -126,3 +126,12 @@ def test_mirror_image(q):
         assert_allclose(slave.lower, -arm.upper)
         assert_allclose(slave.upper, -arm.lower)
         assert_allclose(slave.mirrored().fk(q), arm.fk(q), atol=0)
+
+
+@pytest.mark.parametrize("span", [1e6, 1e8, 1e16])
+def test_after_many_turns(arm, span, rng):
+    """As far as a joint that turns for ever may get, a block of rows agrees with each row alone."""
+    q = rng.uniform(-1.0, 1.0, (70, arm.nq)) * span ** rng.uniform(0, 1, (70, 1))
+    poses = arm.fk(q)
+    assert_array_equal(poses, [arm.fk(row) for row in q])
+    assert_allclose(poses, [pinocchio_pose(arm, row) for row in q], rtol=0, atol=1e-12)

@@ -91,3 +91,14 @@ def test_texts_are_written_by_name(tmp_path, monkeypatch):
     with pytest.raises(OutputError):
         write_texts(tmp_path / "other", {"a.json": "", "a.json/b": ""})
     assert not (tmp_path / "other").exists()
+
+
+def test_if_one_file_cannot_be_moved_all_is_as_before(tmp_path):
+    folder = tmp_path / "out"
+    (folder / "b.csv" / "taken").mkdir(parents=True)
+    (folder / "a.json").write_text("old")
+    with pytest.raises(OutputError):
+        write_together(folder, texts)
+    assert (folder / "a.json").read_text() == "old"
+    assert inside(folder) == ["a.json"]
+    assert not (folder / "below").exists()

@@ -42,15 +42,9 @@ def backward(L, v):
 
 
 @kernel
-def solve_saddle(H, A, f):
-    """Solution in place of ``f`` (n + m,); ``H`` (n, n) is overwritten by its factor."""
-    m, n = A.shape
-    factorise(H)
-    B = A.copy()  # rows L^-1 A_k
-    for k in range(m):
-        forward(H, B[k])
-    x, multiplier = f[:n], f[n:]
-    forward(H, x)
+def solve_multipliers(B, x, multiplier):
+    """Solution of B B^T l = B x - b in place of b, ``multiplier`` (m,)."""
+    m, n = B.shape
     S = np.empty((m, m))
     for i in range(m):
         total = -multiplier[i]
@@ -65,6 +59,19 @@ def solve_saddle(H, A, f):
     factorise(S)
     forward(S, multiplier)
     backward(S, multiplier)
+
+
+@kernel
+def solve_saddle(H, A, f):
+    """Solution in place of ``f`` (n + m,); ``H`` (n, n) is overwritten by its factor."""
+    m, n = A.shape
+    factorise(H)
+    B = A.copy()  # rows L^-1 A_k
+    for k in range(m):
+        forward(H, B[k])
+    x, multiplier = f[:n], f[n:]
+    forward(H, x)
+    solve_multipliers(B, x, multiplier)
     for i in range(m):
         for k in range(n):
             x[k] -= B[i, k] * multiplier[i]

@@ -144,6 +144,7 @@ def least_effort(assumed: Assumed) -> Result:
     feasible = grid.fitness > 0
     parts = [effort(cell, placement.jobs(some)) for some in blocks(grid.points[feasible])]
     every, scores = np.concatenate(parts), grid.fitness[feasible]
+    vary = min(np.ptp(scores), np.ptp(every)) > 0.0
     own = float(effort(cell, solved(task.job, tuple(best.position)))[0])
     return Result(
         obtained={
@@ -156,6 +157,6 @@ def least_effort(assumed: Assumed) -> Result:
         caption=caption(
             "claim_energy",
             effort=assumed["effort_measure"].replace("_", " "),
-            correlation=float(np.corrcoef(scores, every)[0, 1]) if len(every) > 1 else None,
+            correlation=float(np.corrcoef(scores, every)[0, 1]) if vary else None,
         ),
     )
