@@ -19,6 +19,7 @@ DISTRIBUTIONS = {
     "ompl": ("ompl",),
     "PIL": ("pillow",),
     "pinocchio": ("pin",),
+    "pink": ("pin-pink",),
     "umsgpack": ("u-msgpack-python",),
     "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp", "quadprog"),
     "yaml": ("pyyaml",),

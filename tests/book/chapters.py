@@ -73,6 +73,7 @@ def obtained_for(item_id):
 def run(chapter):
     """Run the cells of a chapter."""
     names, compared, silent = {"__name__": chapter}, [], []
+    before = plt.get_fignums()
     original = view_cell.beside_ledger
 
     def beside_ledger(item_id, computed):
@@ -97,6 +98,6 @@ def run(chapter):
             if last and value is None and not printed.getvalue():
                 silent.append(code)
     warned = [(one.filename, str(one.message)) for one in caught]
-    left = plt.get_fignums()
+    left = [number for number in plt.get_fignums() if number not in before]
     plt.close("all")
     return Ran(names, compared, silent, warned, left)

@@ -21,10 +21,11 @@ def test_every_cell_shows_what_it_promises(ran):
 
 def test_a_build_reads_the_rows_and_computes_two_again(ran):
     assert len(ran.names["table"]) == len(ARENA.cells())
-    assert ran.names["differing"] == []
+    assert ran.names["spot"].wrong == []
+    assert ran.names["spot"].cells == 2
     text = "\n".join(cells_of("arena"))
     assert "ARENA.run" not in text
-    assert text.count("spot_check(2") == 1
+    assert text.count("spot_check(ARENA, 2") == 1
 
 
 def test_prose_has_no_typed_result():
