@@ -50,7 +50,7 @@ def load_arm(
         way to the flange are fixed anyway, at 0 or where the joint they follow puts them.
     shapes : Shapes, optional
         ``fitted`` (default of a URDF): several capsules around each collision shape, and pairs
-        left out by evidence (:attr:`Arm.exclusions`); ``enclosing`` (default of a robot file): one
+        left out by evidence (``Arm.exclusions``); ``enclosing`` (default of a robot file): one
         around each; ``visual``: around the visual shapes; ``none``: kinematics alone.
     packages : sequence of paths, optional
         Folders in which ``package://`` is looked for before those above the file and those of

@@ -116,7 +116,7 @@ def load_scene(path: str | Path) -> Scene:
     """Read a scene file.
 
     Starts and goals given as joint vectors come with the arms; those given as positions or poses
-    are for :func:`dualarm_repro.planning.load_tasks`.
+    are for ``dualarm_repro.planning.load_tasks``.
 
     Raises
     ------

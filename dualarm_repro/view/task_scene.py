@@ -64,7 +64,7 @@ def drawn_scene(
 
 
 def standing(scene: Scene) -> list[tuple[str, Shape]]:
-    """Each standing shape by the name of its body in :attr:`.Scene.bodies`."""
+    """Each standing shape by the name of its body in ``Scene.bodies``."""
     found: list[tuple[str, Shape]] = []
     for name, solid in scene.obstacles.items():
         found += [(name, shape) for shape in (solid if isinstance(solid, Sequence) else (solid,))]
