@@ -28,8 +28,8 @@ _DONE = "✅"
 _FAILURES = ("Traceback (most recent call last)", "not found")
 #: Links that the library makes; Sphinx looks after those of the text.
 _OUR_LINKS = ".cell_output a[href], .ledger-item a[href], .ledger-way a[href]"
-#: Where an output may say so: verdicts in words, and code such as `if not found:`.
-_NO_FAILURE = ".ledger-legend, .ledger-line, .ledger-findings, .ledger-source"
+#: Where an output may say so: verdicts in words, code such as `if not found:`, refused files.
+_NO_FAILURE = ".ledger-legend, .ledger-line, .ledger-findings, .ledger-source, .refused-files"
 
 
 def read_pages(html: Path) -> dict[str, markup.HtmlElement]:

@@ -67,7 +67,8 @@ def refused_page() -> Page:
     """What is said of each file that does not load; raises as :func:`counts_page`."""
     rows = PUBLIC_ARMS.load()
     rows = rows[~rows["loads"].astype(bool)].reset_index(drop=True)
-    return table(pd.DataFrame({"file": _names(rows), "said": rows["said"].str.partition(": ")[2]}))
+    said = table(pd.DataFrame({"file": _names(rows), "said": rows["said"].str.partition(": ")[2]}))
+    return Page(f'<div class="refused-files">{said.html}</div>')
 
 
 def _loaded() -> pd.DataFrame:

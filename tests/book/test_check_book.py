@@ -238,10 +238,11 @@ def test_bytes_are_limited(html):
     [
         '<dl class="ledger-line"><dd>not found in 300 tries</dd></dl>',
         '<details class="ledger-source"><pre>if not found:</pre></details>',
+        '<div class="refused-files"><td>child link [Z] not found</td></div>',
     ],
-    ids=["a verdict", "code"],
+    ids=["a verdict", "code", "a refused file"],
 )
-def test_words_of_a_verdict_and_of_code_are_no_failure(html, said):
+def test_words_of_a_verdict_of_code_and_of_a_refusal_are_no_failure(html, said):
     pages = change(html, "toy/page.html", "<pre>2.784</pre>", said)
     assert check_book.failed_outputs(pages) == []
     pages = change(html, "toy/page.html", said, said + "<p>file not found</p>")
