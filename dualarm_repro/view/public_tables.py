@@ -29,7 +29,7 @@ def loading_page() -> Page:
     shown = {
         "file": _names(rows),
         "joints": rows["joints"],
-        "flange": rows["flange"],
+        "flange": [_breaking(name) for name in rows["flange"]],
         "FK exact": rows["exact"].astype(bool),
         "shapes": rows["shapes"],
         "capsules": rows["capsules"],
@@ -77,7 +77,12 @@ def _loaded() -> pd.DataFrame:
 
 
 def _names(rows: pd.DataFrame) -> list[str]:
-    return [file.rpartition("/")[2].removesuffix(".urdf") for file in rows["file"]]
+    return [_breaking(file.rpartition("/")[2].removesuffix(".urdf")) for file in rows["file"]]
+
+
+def _breaking(name: str) -> str:
+    """A long name, which may go on in the next line after an underscore."""
+    return name.replace("_", "_\u200b")
 
 
 def _told(reached: object) -> str:
