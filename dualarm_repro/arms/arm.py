@@ -45,8 +45,9 @@ class Arm(JointSpace):
     lower, upper, velocity_limit : ndarray (nq,)
         Joint limits [rad, m], infinite for a continuous joint; speed limits [rad/s, m/s].
     remarks : tuple of str
-        What its file says that is not represented and does no harm: links that are seen but have
-        no collision shape, words of the parser.
+        What of its file is represented otherwise or not at all: links whose visual shapes stand in
+        for collision shapes that they lack, links that are seen but not represented, words of the
+        parser.
     """
 
     def __init__(

@@ -24,7 +24,7 @@ from .scene import Scene
 from .shape_entries import ObstacleEntry, SolidEntry
 from .shapes import Shape
 from .tool import with_tool
-from .written import read_written
+from ..written import read_written
 
 #: Most obstacles of a scene.
 MOST_OBSTACLES = 10_000

@@ -23,7 +23,7 @@ from dualarm_repro.scene.mesh_parts import covering, divided, mesh_parts
 from dualarm_repro.scene.posing import links_of
 from dualarm_repro.scene.scene_file import MOST_OBSTACLES, scene_of
 from dualarm_repro.scene.tool import with_tool
-from dualarm_repro.scene.written import LARGEST_FILE, read_written
+from dualarm_repro.written import LARGEST_FILE, read_written
 
 #: An L of two bars as a triangle mesh: its hull holds the hollow, its parts do not.
 L_CORNERS = [(0, 0), (0.4, 0), (0.4, 0.1), (0.1, 0.1), (0.1, 0.4), (0, 0.4)]
@@ -215,7 +215,7 @@ def test_an_alias_that_is_used_twice_is_welcome(tmp_path):
 @pytest.mark.parametrize(
     ("entry", "message"),
     [
-        ("{kind: mesh, file: gone.obj}", r"gone\.obj: file = 'nothing': expected a readable mesh"),
+        ("{kind: mesh, file: gone.obj}", r"gone\.obj: file = 'No such file or directory': expected a readable mesh"),
         ("{kind: mesh, file: /etc/passwd}", r"expected a mesh file that ends in \.stl"),
         ("{kind: mesh, file: flat.obj}", "a mesh that spans a volume"),
         ("{kind: mesh, file: broken.stl}", "a mesh of triangles"),

@@ -22,6 +22,7 @@ from .joints import geared, locked_values, read_joints
 from .meshes import mesh_files, refuse_broken_mesh
 from .parser import bordered
 from .shapes import check_count, check_shapes, for_the_parser, with_capsules
+from .stand_ins import represented
 
 _REMEDY = "flange= chooses another chain, lock= fixes a joint"
 
@@ -51,8 +52,9 @@ class URDF:
     types : tuple of JointType
         How each of them moves.
     remarks : list of str
-        Links that are seen but have no collision shape, and what the parser had to say about a file
-        that it could read.
+        Links without a collision shape for which visual ones stand in (:mod:`.stand_ins`), links
+        that are seen but not represented, and what the parser had to say about a file that it
+        could read.
 
     Raises
     ------
@@ -74,6 +76,7 @@ class URDF:
         self.path, self.shapes, self._packages = Path(path), shapes, packages
         self._root = read(self.path)
         joints = read_joints(self.path, self._root)
+        self.remarks = represented(self.path, self._root, shapes, packages)
         check_shapes(self.path, self._root, shapes)
         self._aliases = aliases(self._root)
         kinematic = renamed(_kinematic(self._root), self._aliases)
@@ -84,11 +87,6 @@ class URDF:
         self.flange = default_flange(self._root, joints) if flange is None else flange
         if self.flange not in links:
             raise UnknownNameError(self.path, "flange", self.flange, f"one of {', '.join(links)}")
-        self.remarks = [
-            f"link {name} has a visual but no collision shape"
-            for name, link in links.items()
-            if link.find("visual") is not None and link.find("collision") is None
-        ]
         self.remarks += said
         names = list(full.names)
         limits = {name: self._limits_of(names.index(name)) for name in joints.types}

@@ -9,12 +9,14 @@ alone.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from ...errors import DataFileError, InputError
+from ...input_files import contents, path_of
 from ...scene import JointPath, PlacedArm, Scene
 
 _INDEX = ("step", "index", "time")
@@ -75,13 +77,9 @@ def _is_of(scene: Scene, placed: PlacedArm, file: Path) -> bool:
 
 
 def _table(file: Path) -> pd.DataFrame:
+    written = contents(file, "a readable CSV file", LARGEST_FILE)
     try:
-        if file.stat().st_size > LARGEST_FILE:
-            expected = f"at most {LARGEST_FILE / 1e6:g} MB"
-            raise DataFileError(file, "size", f"{file.stat().st_size / 1e6:.0f} MB", expected)
-        table = pd.read_csv(file, comment="#", skipinitialspace=True)
-    except OSError as error:
-        raise DataFileError(file, "file", error.strerror, "a readable CSV file") from None
+        table = pd.read_csv(BytesIO(written), comment="#", skipinitialspace=True)
     except (ValueError, pd.errors.ParserError) as error:
         raise DataFileError(file, "content", str(error), "a CSV table with a header") from None
     if not len(table):

@@ -31,7 +31,7 @@ from ...scene.broad_phase import with_arms
 from ...scene.configuration_entry import Configuration, PostureEntry
 from ...scene.quantity_entries import Name, Number
 from ...scene.scene_file import SceneFile, scene_of
-from ...scene.written import read_written
+from ...written import read_written
 from ...settings import Settings
 from ..defaults import default_settings, default_two_arm_settings
 from ..faults import TaskFaults
@@ -164,7 +164,7 @@ def load_tasks(
     """
     path = Path(path)
     content = read_written(path)
-    if "scene" not in content:
+    if not content.keys() & {"scene", "tasks"}:
         written, scene = scene_of(path, content)
         entries = {n: TaskEntry() for n, arm in written.arms.items() if arm.goal is not None}
         if not entries and goals_needed:
