@@ -31,7 +31,7 @@ class Angle(NamedTuple):
         """
         if isinstance(value, cls):
             return value
-        if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300:
             return cls(Fraction(repr(value)), of_pi=False)
         if isinstance(value, str):
             if match := _DEGREES.fullmatch(value.strip()):

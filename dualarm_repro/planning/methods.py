@@ -194,7 +194,7 @@ def method(name: str) -> AnyMethod:
     UnknownNameError
         There is none.
     """
-    if name not in METHODS:
+    if not isinstance(name, str) or name not in METHODS:
         raise UnknownNameError("planning", "method", name, f"one of {', '.join(METHODS)}")
     return METHODS[name]
 

@@ -13,6 +13,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from ..arms.arm import Arm
+from ..errors import InputError
 from .hull import ConvexHull
 from .moving import MovingArm, MovingShape
 from .posing import links_of
@@ -44,6 +45,10 @@ class PlacedArm:
         ) -> None: ...
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise InputError("PlacedArm", "name", self.name, "text")
+        if not isinstance(self.arm, Arm):
+            raise InputError("PlacedArm", "arm", self.arm, "an Arm, as load_arm gives it")
         finite_pose(f"arm {self.name}", "placement", self.placement)
         for field_name in ("start", "goal"):
             if (q := getattr(self, field_name)) is not None:

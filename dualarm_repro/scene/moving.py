@@ -86,6 +86,8 @@ class PosePath(_Track):
     """
 
     def __init__(self, poses: Sequence[pin.SE3], index: ArrayLike | None = None) -> None:
+        if not isinstance(poses, Sequence) or not all(isinstance(one, pin.SE3) for one in poses):
+            raise InputError("PosePath", "poses", poses, "a sequence of pinocchio.SE3")
         super().__init__("PosePath", len(poses), index)
         self.translation = array_of(
             "PosePath", "poses", [pose.translation for pose in poses], (None, 3), "finite poses"
@@ -121,6 +123,8 @@ class MovingShape:
         if not isinstance(self.shape, Sphere | Capsule | Box | ConvexHull):
             expected = "Sphere, Capsule, Box or ConvexHull"
             raise InputError("MovingShape", "shape", self.shape, expected)
+        if not isinstance(self.path, PosePath):
+            raise InputError("MovingShape", "path", self.path, "a PosePath")
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,5 +136,9 @@ class MovingArm:
     placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.arm, Arm):
+            raise InputError("MovingArm", "arm", self.arm, "an Arm, as load_arm gives it")
+        if not isinstance(self.path, JointPath):
+            raise InputError("MovingArm", "path", self.path, "a JointPath")
         finite_pose("MovingArm", "placement", self.placement)
         self.arm.configurations(self.path.configurations)

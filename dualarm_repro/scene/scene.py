@@ -15,6 +15,7 @@ from ..errors import ConfigurationError, InputError, UnknownNameError
 from .bodies import Bodies, PlacedArm, Shape, collect
 from .moving import JointPath, MovingArm, MovingShape
 from .pairs import Pairs, find_pairs
+from .scene_arguments import check_arguments
 from .shapes import HalfSpace
 
 FLOOR = "floor"
@@ -44,7 +45,7 @@ class Scene:
     Raises
     ------
     InputError
-        No arm, a name given twice or with a slash.
+        No arm, a name given twice or with a slash, an argument of the wrong type.
     UnknownNameError
         An exempt name that no body has.
     """
@@ -59,6 +60,9 @@ class Scene:
     pairs: Pairs = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
+        check_arguments(
+            self.arms, self.obstacles, self.moving, self.floor, self.exempt, self.self_collision
+        )
         solids = dict(self.obstacles)
         names = [*(placed.name for placed in self.arms), *solids, *self.moving]
         if self.floor is not None:

@@ -16,6 +16,7 @@ from ..arms import Arm, load_arm
 from ..arms.shapes import Shapes
 from ..datafiles import StrictModel
 from ..errors import DataFileError, DualArmError, InputError
+from ..input_files import path_of
 from .bodies import PlacedArm
 from .configuration_entry import Configuration
 from .moving import MovingShape, PosePath
@@ -126,7 +127,7 @@ def load_scene(path: str | Path) -> Scene:
     UnsupportedArmError
         A robot is no serial chain of joints that the library knows.
     """
-    path = Path(path)
+    path = path_of("load_scene", "path", path)
     return scene_of(path, read_written(path)).scene
 
 

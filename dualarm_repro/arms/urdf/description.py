@@ -23,6 +23,7 @@ from .meshes import mesh_files, refuse_broken_mesh
 from .parser import bordered
 from .shapes import check_count, check_shapes, for_the_parser, with_capsules
 from .stand_ins import represented
+from .tree import check_tree
 
 _REMEDY = "flange= chooses another chain, lock= fixes a joint"
 
@@ -59,7 +60,7 @@ class URDF:
     Raises
     ------
     DataFileError
-        Missing or broken file, a non-finite number, limits in the wrong order, no joint, a joint
+        Missing or broken file, links that form no tree, a non-finite number, limits in the wrong order, no joint, a joint
         of the chain that is neither revolute nor prismatic, a collision shape that is not known.
     UnknownNameError
         No such flange frame or joint.
@@ -75,6 +76,7 @@ class URDF:
     ) -> None:
         self.path, self.shapes, self._packages = Path(path), shapes, packages
         self._root = read(self.path)
+        check_tree(self.path, self._root)
         joints = read_joints(self.path, self._root)
         self.remarks = represented(self.path, self._root, shapes, packages)
         check_shapes(self.path, self._root, shapes)
@@ -85,7 +87,7 @@ class URDF:
             self._full = full = pin.buildModelFromXML(xml)
         links = children(self._root, "link")
         self.flange = default_flange(self._root, joints) if flange is None else flange
-        if self.flange not in links:
+        if not isinstance(self.flange, str) or self.flange not in links:
             raise UnknownNameError(self.path, "flange", self.flange, f"one of {', '.join(links)}")
         self.remarks += said
         names = list(full.names)

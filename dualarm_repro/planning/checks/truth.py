@@ -88,9 +88,7 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     UnknownNameError
         An arm without a path, or a path without an arm.
     """
-    if set(paths) != set(scene.columns):
-        expected = f"paths of all of {', '.join(scene.columns)}"
-        raise UnknownNameError("truth", "paths", sorted(paths), expected)
+    require_paths("truth", scene, paths)
     first = min(float(path.index[0]) for path in paths.values())
     tracks = [*paths.values(), *(mover.path for mover in scene.moving.values())]
     index = np.unique(np.concatenate([track.index for track in tracks]))

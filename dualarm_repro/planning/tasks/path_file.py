@@ -34,8 +34,10 @@ def read_paths(scene: Scene, files: Iterable[str | Path]) -> dict[str, JointPath
         that two files name.
     """
     found: dict[str, JointPath] = {}
+    if not isinstance(files, Iterable) or isinstance(files, str | bytes):
+        raise InputError("read_paths", "files", files, "paths of CSV files")
     for name in files:
-        for arm, path in _read(scene, Path(name)).items():
+        for arm, path in _read(scene, path_of("read_paths", "files", name)).items():
             if arm in found:
                 raise DataFileError(name, arm, "a second path", "one path of each arm")
             found[arm] = path

@@ -26,6 +26,7 @@ from pydantic import Field
 from ...arms import Arm
 from ...datafiles import StrictModel
 from ...errors import DataFileError, InputError
+from ...input_files import path_of
 from ...scene import Scene, distances
 from ...scene.broad_phase import with_arms
 from ...scene.configuration_entry import Configuration, PostureEntry
@@ -162,7 +163,7 @@ def load_tasks(
     TaskFaults
         The same for several fields at once.
     """
-    path = Path(path)
+    path = path_of("load_tasks", "path", path)
     content = read_written(path)
     if not content.keys() & {"scene", "tasks"}:
         written, scene = scene_of(path, content)
