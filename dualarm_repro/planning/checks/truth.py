@@ -9,12 +9,12 @@ from enum import StrEnum
 
 import numpy as np
 
-from ...errors import UnknownNameError
 from ...scene import JointPath, Scene, certified_minimum, distances
 from ...scene.broad_phase import near_scene
 from ...scene.certificate import Bracket
 from ...scene.exact_shapes import exact_minimum
 from ..gate import ROUNDING, beyond_limits
+from .whole_motion import require_paths
 
 #: Wanted width of the bracket, and that tried where the wide one does not decide [m].
 TOLERANCE, FINE = 1e-3, 2e-5
@@ -85,6 +85,8 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
 
     Raises
     ------
+    InputError
+        No mapping of name to JointPath.
     UnknownNameError
         An arm without a path, or a path without an arm.
     """
