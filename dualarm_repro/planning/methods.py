@@ -140,25 +140,25 @@ METHODS: dict[str, AnyMethod] = {
     for method in (
         Method(
             "apf-improved",
-            "attraction by position and joints, repulsion of all control points, virtual point",
+            "Attraction by position and joints, repulsion of all control points, virtual point",
             lambda settings: settings,
             *_APF,
         ),
         Method(
             "apf-traditional",
-            "attraction and repulsion of the end effector, by position only",
+            "Attraction and repulsion of the end effector, by position only",
             _at_the_tool,
             *_APF,
         ),
         Method(
             "apf-traditional-points",
-            "attraction of the end effector by position, repulsion of all control points",
+            "Attraction of the end effector by position, repulsion of all control points",
             _traditional,
             *_APF,
         ),
         Method(
             "apf-cartesian-ik",
-            "the end effector as a point in the field; inverse kinematics and a look at every step",
+            "The end effector as a point in the field; inverse kinematics and a look at every step",
             _traditional,
             APFSettings,
             default_settings,
@@ -166,19 +166,19 @@ METHODS: dict[str, AnyMethod] = {
         ),
         Method(
             "attraction-only",
-            "attraction alone: obstacles are ignored",
+            "Attraction alone: obstacles are ignored",
             _attraction_only,
             *_APF,
         ),
         Method(
             "apf-bidirectional",
-            "search from both ends in joint space, variable gain and step; hull of the master",
+            "Search from both ends in joint space, variable gain and step; hull of the master",
             lambda settings: settings,
             *_SEARCH,
         ),
         Method(
             "apf-one-sided",
-            "the same search from the start only, with constant gain and step",
+            "The same search from the start only, with constant gain and step",
             one_sided,
             *_SEARCH,
         ),

@@ -1,7 +1,8 @@
 """What a planner is: one function from a problem to a path of all arms at once.
 
 A planner of one's own is a function of this form, named by an entry point of the group
-:data:`GROUP`; ``dualarm methods`` lists it, ``plan`` runs it and ``arena`` judges it.
+:data:`GROUP`; ``dualarm methods`` lists it, ``plan`` runs it and ``arena`` judges it. It is given a
+copy of the problem (:mod:`.foreign`): what it writes into is never what it is judged by.
 """
 
 from __future__ import annotations

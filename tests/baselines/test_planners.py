@@ -1,5 +1,7 @@
 """Every baseline on tasks whose answer is known, judged by all bodies."""
 
+import sys
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -103,6 +105,9 @@ def test_obstacle_that_moves_by_itself_is_refused_by_name(name, tmp_path):
         (lambda problem: FoundPath(problem.start, "reached"), "path"),
         (lambda problem: FoundPath(problem.goal[None], "reached"), "begin at the start"),
         (lambda problem: FoundPath(problem.start[None] * np.nan, "reached"), "finite"),
+        (lambda problem: sys.exit("enough"), "planner theirs: method = .*SystemExit: enough"),
+        (lambda problem: next(_ending(BaseException("a"))), "BaseException: a"),
+        (lambda problem: problem.scene.stack(nobody=1), "planner theirs: scene: arms"),
     ],
 )
 def test_planner_of_somebody_else_cannot_hurt(answer, told, tmp_path):
@@ -110,6 +115,55 @@ def test_planner_of_somebody_else_cannot_hurt(answer, told, tmp_path):
     with pytest.raises(DualArmError, match=told) as caught:
         run_planner("theirs", answer, problem_of(tmp_path, FREE))
     assert "\n" not in str(caught.value)
+
+
+def _ending(error):
+    raise error
+    yield
+
+
+def test_interruption_of_the_user_goes_through_a_planner(tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        run_planner("theirs", lambda p: next(_ending(KeyboardInterrupt())), problem_of(tmp_path, FREE))
+
+
+def _cheating(problem):
+    """Claims to have arrived where it stands, after moving everything that could tell."""
+    problem.goal[:] = problem.start
+    problem.scene.arms[0].arm.lower[:] = -1e9
+    problem.scene.bodies.radius[:] = 0.0
+    problem.scene.obstacles.clear()
+    problem.scene.arms.pop()
+    problem.evaluations = 17
+    print("I print where the JSON goes")
+    return FoundPath(problem.start[np.newaxis], "reached")
+
+
+def test_planner_writes_into_its_own_copy_only(tmp_path, capsys):
+    problem = problem_of(tmp_path, BLOCKED)
+    scene, before = problem.scene, (problem.start.copy(), problem.goal.copy())
+    known = (scene.arms[0].arm.lower.copy(), scene.bodies.radius.copy(), len(scene.arms))
+    plan = run_planner("theirs", _cheating, problem)
+    assert not any(one.reached for one in plan.plans.values())
+    for kept, now in zip(before, (problem.start, problem.goal), strict=True):
+        np.testing.assert_array_equal(kept, now)
+    np.testing.assert_array_equal(known[0], scene.arms[0].arm.lower)
+    np.testing.assert_array_equal(known[1], scene.bodies.radius)
+    assert (len(scene.arms), problem.evaluations) == (known[2], 17)
+    assert capsys.readouterr().out == ""
+
+
+def test_answer_is_a_copy_too(tmp_path):
+    kept = []
+
+    def planner(problem):
+        kept.append(np.array([problem.start, problem.goal]))
+        return FoundPath(kept[0], "reached")
+
+    plan = run_planner("theirs", planner, problem_of(tmp_path, FREE))
+    ends = plan.master.path[-1].copy()
+    kept[0][:] = 0.0
+    np.testing.assert_array_equal(plan.master.path[-1], ends)
 
 
 def test_margin_is_half_of_what_the_ends_have(tmp_path):
