@@ -60,7 +60,7 @@ def test_what_is_no_regular_file_is_named_and_not_waited_for(tmp_path, kind, rea
 @pytest.mark.parametrize("value", [None, 3, 2.5, [], ["a"], b"x", {}, "", " ", "a\0b", object()])
 @pytest.mark.parametrize("read", [load_arm, load_scene, load_tasks])
 def test_arguments_that_are_no_path_are_named(read, value):
-    with pytest.raises(InputError, match="expected .*path"):
+    with pytest.raises(InputError, match=r"expected .*path"):
         read(value)
 
 

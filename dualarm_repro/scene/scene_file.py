@@ -17,6 +17,7 @@ from ..arms.shapes import Shapes
 from ..datafiles import StrictModel
 from ..errors import DataFileError, DualArmError, InputError
 from ..input_files import path_of
+from ..written import read_written
 from .bodies import PlacedArm
 from .configuration_entry import Configuration
 from .moving import MovingShape, PosePath
@@ -25,7 +26,6 @@ from .scene import Scene
 from .shape_entries import ObstacleEntry, SolidEntry
 from .shapes import Shape
 from .tool import with_tool
-from ..written import read_written
 
 #: Most obstacles of a scene.
 MOST_OBSTACLES = 10_000

@@ -60,9 +60,7 @@ def check_summary(
     }
 
 
-def away_from_starts(
-    given: TaskSet[Settings], paths: Mapping[str, JointPath]
-) -> dict[str, float]:
+def away_from_starts(given: TaskSet[Settings], paths: Mapping[str, JointPath]) -> dict[str, float]:
     """Of every arm how far the first row of its path is from its start, largest joint [rad, m]."""
     return {
         one.name: away_from_start(one, given.starts[one.name], paths[one.name].configurations[0])

@@ -124,7 +124,9 @@ def _ending(error):
 
 def test_interruption_of_the_user_goes_through_a_planner(tmp_path):
     with pytest.raises(KeyboardInterrupt):
-        run_planner("theirs", lambda p: next(_ending(KeyboardInterrupt())), problem_of(tmp_path, FREE))
+        run_planner(
+            "theirs", lambda p: next(_ending(KeyboardInterrupt())), problem_of(tmp_path, FREE)
+        )
 
 
 def _cheating(problem):

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.errors import DataFileError
+from dualarm_repro.errors import DataFileError, InputError
 from dualarm_repro.scene import PlacedArm, Scene, distances, facing, load_scene, window_frame
 from dualarm_repro.scene.scene_file import json_schema
 from dualarm_repro.scene.shapes import Box, Capsule, HalfSpace, Sphere
@@ -234,7 +234,10 @@ def test_arguments_of_a_scene_are_named(arguments, told):
     ("text", "told"),
     [
         ("arm: {}", "arm = 'an empty mapping': expected one of the fields arms, obstacles"),
-        ("arms: {a: {robot: irb120, strat: [0]}}", r"arms\.a\.strat.*one of the fields start, robot"),
+        (
+            "arms: {a: {robot: irb120, strat: [0]}}",
+            r"arms\.a\.strat.*one of the fields start, robot",
+        ),
         (
             "arms: {a: {robot: irb120}}\nobstacles: {x: {kind: sphere, centre: [0, 0, 0]}}",
             r"x\.sphere\.centre.*one of the fields center, kind, radius",

@@ -215,7 +215,10 @@ def test_an_alias_that_is_used_twice_is_welcome(tmp_path):
 @pytest.mark.parametrize(
     ("entry", "message"),
     [
-        ("{kind: mesh, file: gone.obj}", r"gone\.obj: file = 'No such file or directory': expected a readable mesh"),
+        (
+            "{kind: mesh, file: gone.obj}",
+            r"gone\.obj: file = 'No such file or directory': expected a readable mesh",
+        ),
         ("{kind: mesh, file: /etc/passwd}", r"expected a mesh file that ends in \.stl"),
         ("{kind: mesh, file: flat.obj}", "a mesh that spans a volume"),
         ("{kind: mesh, file: broken.stl}", "a mesh of triangles"),

@@ -52,9 +52,13 @@ def represented(path: Path, root: Element, shapes: Shapes, packages: Sequence[Pa
             stood += [name] if name not in stood else []
     remarks = []
     if stood:
-        remarks.append(f"visual shapes stand in for missing collision shapes of links {', '.join(stood)}")
+        remarks.append(
+            f"visual shapes stand in for missing collision shapes of links {', '.join(stood)}"
+        )
     if lost:
-        reason = "not represented, without collision shape and with a visual one that is no shape or"
+        reason = (
+            "not represented, without collision shape and with a visual one that is no shape or"
+        )
         remarks.append(f"{reason} has no file: {', '.join(lost.values())}")
     return remarks
 

@@ -32,8 +32,8 @@ from ...scene.broad_phase import with_arms
 from ...scene.configuration_entry import Configuration, PostureEntry
 from ...scene.quantity_entries import Name, Number
 from ...scene.scene_file import SceneFile, scene_of
-from ...written import read_written
 from ...settings import Settings
+from ...written import read_written
 from ..defaults import default_settings, default_two_arm_settings
 from ..faults import TaskFaults
 from ..given_settings import merged
