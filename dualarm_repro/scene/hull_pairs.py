@@ -23,7 +23,7 @@ from .posing import frames_of, in_link_frames, links_of
 from .scene import Scene
 
 CAP = 0.03  # hulls farther apart [m] count as this far
-_GJK = 1e-6  # by how much coal may overstate a distance [m]
+GJK = 1e-6  # by how much coal may overstate a distance [m]
 _FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
 
 
@@ -108,7 +108,7 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
                 at = first.placed(frame), second.placed(frame)
                 result.clear()
                 bodies = first.geometry, at[0], second.geometry, at[1]
-                gap = coal.distance(*bodies, request, result) - _GJK
+                gap = coal.distance(*bodies, request, result) - GJK
                 if gap <= distance[n, column]:
                     continue
                 distance[n, column] = value = min(gap, CAP)
