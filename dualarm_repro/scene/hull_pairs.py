@@ -9,7 +9,6 @@ bodies move.
 from __future__ import annotations
 
 from collections import defaultdict
-from functools import lru_cache
 from typing import NamedTuple
 
 import coal
@@ -19,6 +18,7 @@ import pinocchio as pin
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends, segment_capsule, to_segment
 from ..arms.fit.triangles import PRISM, convex
+from ..tracking import kept_with_owner
 from .posing import frames_of, in_link_frames, links_of
 from .scene import Scene
 
@@ -48,7 +48,7 @@ class HullPair(NamedTuple):
     second: Carried
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def hulls_of(arm: Arm) -> dict[str, Carried]:
     """Of capsules by name the hull in the frame of their joint as :func:`.posing.link_frames` has
     it. A capsule that is not the one fitted around its hull, such as a thicker one, has none."""
@@ -73,7 +73,7 @@ def _capsules_of(arm: Arm) -> dict[str, Carried]:
     return found
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
     """Watched pairs of capsules of one arm one of which has a hull, by the name of the arm."""
     arms = {placed.name: placed.arm for placed in scene.arms if placed.arm.hulls}
@@ -91,9 +91,12 @@ def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
 def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarray) -> None:
     """Raise the distances (N, P) of capsules where hulls show more, and move the points and
     normals of ``witness`` (N, P, 3, 3), unless it is empty, to the hulls."""
+    known = hull_pairs(scene)
+    if not known:
+        return
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     for placed in scene.arms:
-        pairs = hull_pairs(scene).get(placed.name)
+        pairs = known.get(placed.name)
         if not pairs:
             continue
         close = distance[:, [pair.column for pair in pairs]] < CAP

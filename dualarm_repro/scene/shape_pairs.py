@@ -13,7 +13,6 @@ and of capsules that still are as they were fitted around these.
 from __future__ import annotations
 
 from collections import defaultdict
-from functools import lru_cache
 from typing import NamedTuple
 
 import coal
@@ -22,6 +21,7 @@ import pinocchio as pin
 
 from ..arms.arm import Arm
 from ..arms.exclusions import shape_of
+from ..tracking import kept_with_owner
 from . import hull_pairs
 from .hull_pairs import GJK, Carried
 from .posing import frames_of, in_link_frames
@@ -43,8 +43,11 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
     """Raise the distances (N, P) of capsules of one arm where hulls or exact shapes show more, and
     move the points and normals of ``witness`` (N, P, 3, 3), unless it is empty, to these."""
     hull_pairs.refine(scene, q, distance, witness)
+    known = shape_pairs(scene)
+    if not known:
+        return
     for placed in scene.arms:
-        pairs = shape_pairs(scene).get(placed.name)
+        pairs = known.get(placed.name)
         if not pairs:
             continue
         columns = [column for pair in pairs for column in pair.columns]
@@ -82,7 +85,7 @@ def _raise(
                 witness[column] = p, p + value * normal, normal
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def shape_pairs(scene: Scene) -> dict[str, list[ShapePair]]:
     """Pairs of shapes of which capsules are watched against each other, by the name of the arm."""
     shapes = {placed.name: shapes_of(placed.arm) for placed in scene.arms}
@@ -101,7 +104,7 @@ def shape_pairs(scene: Scene) -> dict[str, list[ShapePair]]:
     }
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def shapes_of(arm: Arm) -> dict[str, Carried]:
     """Of capsules by name the exact shape in which they are, in the frame of their joint as
     :func:`.posing.link_frames` has it; of those that are as they were fitted around it."""
