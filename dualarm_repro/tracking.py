@@ -135,8 +135,8 @@ def memo(maxsize: int | None = None) -> Callable[[Callable[P, T]], Callable[P, T
 def kept_with_owner(function: Callable[[Owner], T]) -> Callable[[Owner], T]:
     """Decorator: the answer for an object is kept as long as the object lives, and no longer.
 
-    ``functools.lru_cache`` would keep the object alive, meshes and all. The answer must not refer to
-    it.
+    ``functools.lru_cache`` would keep the object alive, meshes and all. The answer must not refer
+    to it.
     """
     kept: WeakKeyDictionary[Any, T] = WeakKeyDictionary()
 

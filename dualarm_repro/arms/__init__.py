@@ -18,6 +18,7 @@ __all__ = [
     "Extents",
     "JointType",
     "MirrorRobot",
+    "Neighbours",
     "Occupancy",
     "RotationVolume",
     "Shapes",

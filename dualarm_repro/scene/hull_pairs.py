@@ -9,6 +9,7 @@ bodies move.
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import coal
@@ -28,16 +29,26 @@ _FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
 
 
 class Carried(NamedTuple):
-    """A hull, or a capsule that has none, at a pose in the frame of the joint that carries it."""
+    """A hull, or another shape at a pose, in the frame of the joint that carries it."""
 
     joint: int
     geometry: coal.CollisionGeometry
-    pose: pin.SE3
+    pose: coal.Transform3s | None = None
 
-    def placed(self, frames: np.ndarray) -> coal.Transform3s:
-        """Where it is, for frames (J, 3, 4)."""
-        turn, origin = frames[self.joint, :, :3], frames[self.joint, :, 3]
-        return coal.Transform3s(turn @ self.pose.rotation, turn @ self.pose.translation + origin)
+    def placed(self, joints: Sequence[coal.Transform3s]) -> coal.Transform3s:
+        """Where it is, for the places of the joints."""
+        at = joints[self.joint]
+        return at if self.pose is None else at * self.pose
+
+
+def places(frames: np.ndarray) -> list[coal.Transform3s]:
+    """Frames (J, 3, 4) as coal has them."""
+    return [coal.Transform3s(frame[:, :3], frame[:, 3]) for frame in frames]
+
+
+def transform(pose: pin.SE3) -> coal.Transform3s:
+    """A pose as coal has it."""
+    return coal.Transform3s(pose.rotation, pose.translation)
 
 
 class HullPair(NamedTuple):
@@ -61,7 +72,7 @@ def hulls_of(arm: Arm) -> dict[str, Carried]:
         farthest = to_segment(corners, *ends).max()
         if min(abs(farthest - radius), abs(farthest - PRISM * radius)) <= _FILLED:
             local = in_link_frames(arm, one.parentJoint, corners)
-            found[one.name] = Carried(one.parentJoint, convex(local), pin.SE3.Identity())
+            found[one.name] = Carried(one.parentJoint, convex(local))
     return found
 
 
@@ -69,7 +80,7 @@ def _capsules_of(arm: Arm) -> dict[str, Carried]:
     links, found = links_of(arm), {}
     for name, joint, core, radius in zip(*links, strict=True):
         pose, solid = segment_capsule(core[0], core[1], float(radius))
-        found[name] = Carried(int(joint), solid, pose)
+        found[name] = Carried(int(joint), solid, transform(pose))
     return found
 
 
@@ -106,9 +117,10 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
         own = q[rows, scene.columns[placed.name]].copy()
         frames = frames_of(placed.arm, placed.placement.homogeneous[:3], own)
         for n, frame in zip(rows, frames, strict=True):
+            joints = places(frame)
             for k in np.flatnonzero(close[n]):
                 column, first, second = pairs[k]
-                at = first.placed(frame), second.placed(frame)
+                at = first.placed(joints), second.placed(joints)
                 result.clear()
                 bodies = first.geometry, at[0], second.geometry, at[1]
                 gap = coal.distance(*bodies, request, result) - GJK

@@ -6,13 +6,14 @@ NEAR. The distance of the shapes is never more than that of what two of their ca
 they touch, the first two terms stand. As long as nothing touches, d is continuous and changes no
 faster than the shapes move.
 
-It is asked of arms whose pairs were judged by their exact shapes (:attr:`..arms.arm.Arm.exclusions`),
-and of capsules that still are as they were fitted around these.
+It is asked of arms whose pairs were judged by their exact shapes
+(:attr:`..arms.arm.Arm.exclusions`), and of capsules that still are as they were fitted around these.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import coal
@@ -23,11 +24,11 @@ from ..arms.arm import Arm
 from ..arms.exclusions import shape_of
 from ..tracking import kept_with_owner
 from . import hull_pairs
-from .hull_pairs import GJK, Carried
+from .hull_pairs import GJK, Carried, places, transform
 from .posing import frames_of, in_link_frames
 from .scene import Scene
 
-NEAR = 0.015  # shapes farther apart [m] count as this far
+NEAR = 0.01  # shapes farther apart [m] count as this far
 _ROUND = (coal.Sphere, coal.Capsule)  # which are the capsules around them
 
 
@@ -59,18 +60,22 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
         own = q[rows, scene.columns[placed.name]].copy()
         frames = frames_of(placed.arm, placed.placement.homogeneous[:3], own)
         for n, frame in zip(rows, frames, strict=True):
+            joints = places(frame)
             for k in np.flatnonzero(close[n]):
-                _raise(pairs[k], frame, distance[n], witness[n] if witness.size else None)
+                _raise(pairs[k], joints, distance[n], witness[n] if witness.size else None)
 
 
 def _raise(
-    pair: ShapePair, frame: np.ndarray, distance: np.ndarray, witness: np.ndarray | None
+    pair: ShapePair,
+    joints: Sequence[coal.Transform3s],
+    distance: np.ndarray,
+    witness: np.ndarray | None,
 ) -> None:
-    """The same for one pair of shapes in one posture, with frames (J, 3, 4) of its joints."""
+    """The same for one pair of shapes in one posture, with the places of its joints."""
     result = coal.DistanceResult()
     if witness is None:
         result.min_distance = 2.0 * NEAR  # what is farther is not searched through
-    at = pair.first.placed(frame), pair.second.placed(frame)
+    at = pair.first.placed(joints), pair.second.placed(joints)
     bodies = pair.first.geometry, at[0], pair.second.geometry, at[1]
     gap = min(coal.distance(*bodies, coal.DistanceRequest(), result), result.min_distance) - GJK
     if gap <= 0.0:
@@ -89,19 +94,19 @@ def _raise(
 def shape_pairs(scene: Scene) -> dict[str, list[ShapePair]]:
     """Pairs of shapes of which capsules are watched against each other, by the name of the arm."""
     shapes = {placed.name: shapes_of(placed.arm) for placed in scene.arms}
-    found = defaultdict(lambda: defaultdict(list))
+    found: dict[str, dict[tuple[str, str], ShapePair]] = defaultdict(dict)
     for column, (a, b) in enumerate(scene.pairs.bodies):
         known = shapes.get(a.owner)
         if a.owner != b.owner or not known:
             continue
-        names = tuple(body.name.partition("/")[2] for body in (a, b))
-        both = [known.get(name) for name in names]
-        if None not in both and not all(isinstance(one.geometry, _ROUND) for one in both):
-            found[a.owner][tuple(map(shape_of, names))].append((column, *both))
-    return {
-        owner: [ShapePair([one[0] for one in own], *own[0][1:]) for own in pairs.values()]
-        for owner, pairs in found.items()
-    }
+        names = [body.name.partition("/")[2] for body in (a, b)]
+        first, second = map(known.get, names)
+        if first is None or second is None:
+            continue
+        if not (isinstance(first.geometry, _ROUND) and isinstance(second.geometry, _ROUND)):
+            key = shape_of(names[0]), shape_of(names[1])
+            found[a.owner].setdefault(key, ShapePair([], first, second)).columns.append(column)
+    return {owner: list(pairs.values()) for owner, pairs in found.items()}
 
 
 @kept_with_owner
@@ -113,7 +118,7 @@ def shapes_of(arm: Arm) -> dict[str, Carried]:
     fitted = {one.name: one for one in arm.fit.geometryObjects}
     solids = {one.name: one for one in arm.solids.geometryObjects}
     carried = {
-        name: Carried(one.parentJoint, one.geometry, _in_link_frame(arm, one))
+        name: Carried(one.parentJoint, one.geometry, transform(_in_link_frame(arm, one)))
         for name, one in solids.items()
     }
     return {

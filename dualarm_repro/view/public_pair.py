@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -17,15 +18,17 @@ from ..scene import PlacedArm, Scene, certified_minimum, distances, links_of
 
 OF_PAIR = ("pair_reached", "pair_reason", "pair_lower", "pair_meshes", "pair_apart")
 SHARE = 0.9  # of the reach, between the bases
+WIDER = (1.0, 1.25, 1.5)  # times that, tried in turn until postures of both are clear
 ROOM = 0.002  # distance at start and goal [m]
-ALONE, DRAWS = 600, 400  # postures of one arm, and of both, among which ends are sought
+ALONE, DRAWS = 200, 400  # postures of one arm, and of both, among which ends are sought
 GOALS = 4  # that are tried one after the other
-EVALUATIONS = 2000
+EVALUATIONS = 2000  # of all of them together
 ROWS = 60  # of the path, in which the meshes are looked at
 _TOLERANCE, _BUDGET = 5e-3, 1500  # of the report [m], and configurations it may compute
-_FINER = 4000  # of these, where the report has to be finer to tell
+_FINER = 3000  # of these, where the report has to be finer to tell
 
 FOUND, NOT_FOUND = "found", "none found"
+FIXED = "its joints cannot move"
 SELF, OTHER = "touches itself", "touches the other"
 
 
@@ -41,23 +44,36 @@ def planned_pair(arm: Arm, rng: np.random.Generator) -> dict[str, Any]:
         plan was found; ``pair_meshes`` [m], the distance of the exact shapes in its samples.
     """
     apart = distance_of_bases(arm, rng)
-    half = np.array([0.0, 0.5 * apart, 0.0])
-    bases = (pin.SE3(np.eye(3), half), pin.SE3(np.eye(3), -half))
-    scene = Scene([PlacedArm(f"arm{k}", arm, base) for k, base in enumerate(bases)])
     row = dict.fromkeys(OF_PAIR) | {"pair_apart": apart}
+    if not np.any(arm.upper > arm.lower):
+        return row | {"pair_reason": FIXED}
     single = clear_alone(arm, rng)
     if len(single) < 2:
         return row | {"pair_reason": SELF}
-    start, *goals = [*clear_postures(scene, single, rng)][: 1 + GOALS] or [None]
-    if not goals:
+    for wider in WIDER:
+        row["pair_apart"] = wider * apart
+        scene = two_of(arm, wider * apart)
+        ends = list(islice(clear_postures(scene, single, rng), 1 + GOALS))
+        if len(ends) > 1:
+            break
+    else:
         return row | {"pair_reason": OTHER}
+    start, *goals = ends
+    most = EVALUATIONS // len(goals)
     for goal in goals:
-        settings = PlannerSettings(seed=int(rng.integers(2**31 - 2)), evaluations=EVALUATIONS)
+        settings = PlannerSettings(seed=int(rng.integers(2**31 - 2)), evaluations=most)
         found = rrt_connect(PathProblem(scene, start, goal, settings))
         if found.claimed:
             return row | {"pair_reason": FOUND} | judged(scene, found)
     straight = FoundPath(np.array([start, goals[-1]]), found.reason)
     return row | {"pair_reason": NOT_FOUND} | judged(scene, straight)
+
+
+def two_of(arm: Arm, apart: float) -> Scene:
+    """Two of an arm whose bases are so far apart along y [m]."""
+    half = np.array([0.0, 0.5 * apart, 0.0])
+    bases = (pin.SE3(np.eye(3), half), pin.SE3(np.eye(3), -half))
+    return Scene([PlacedArm(f"arm{k}", arm, base) for k, base in enumerate(bases)])
 
 
 def judged(scene: Scene, found: FoundPath) -> dict[str, Any]:

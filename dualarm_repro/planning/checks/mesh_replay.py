@@ -112,5 +112,5 @@ def _watched(scene: Scene, solids: list[_Solid]) -> Iterator[tuple[int, int]]:
                 yield a, b
             continue
         names, apart = frozenset((one.name, other.name)), abs(one.joint - other.joint)
-        if (apart > 1 and names not in silent[one.owner]) or (apart == 1 and names in near[one.owner]):
+        if names in near[one.owner] if apart == 1 else apart and names not in silent[one.owner]:
             yield a, b
