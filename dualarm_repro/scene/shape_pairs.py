@@ -7,7 +7,7 @@ they touch, the first two terms stand. As long as nothing touches, d is continuo
 faster than the shapes move.
 
 It is asked of arms whose pairs were judged by their exact shapes
-(:attr:`..arms.arm.Arm.exclusions`), and of capsules that still are as they were fitted around these.
+(:attr:`..arms.arm.Arm.exclusions`), and of capsules that still are as they were fitted around them.
 """
 
 from __future__ import annotations

@@ -49,8 +49,10 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
         return made
 
     def exact() -> pin.GeometryModel | None:
-        made = arm.solids and arm.solids.copy()
-        for one in bodies.geometryObjects if made else ():
+        if arm.solids is None:
+            return None
+        made = arm.solids.copy()
+        for one in bodies.geometryObjects:
             made.addGeometryObject(one)
         return made
 
