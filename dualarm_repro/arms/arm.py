@@ -17,7 +17,7 @@ from . import dh, kernels, sliding
 from .capsules import capsule_geometry
 from .chain import chain_of
 from .dh_model import FLANGE, build_model
-from .exclusions import Exclusion
+from .exclusions import Exclusion, Neighbours
 from .joint_space import JointSpace
 from .joint_type import JointType
 from .kernels import Chain
@@ -62,6 +62,7 @@ class Arm(JointSpace):
         exclusions: Callable[[], tuple[Exclusion, ...] | None] | None = None,
         hulls: Callable[[], Mapping[str, np.ndarray]] | None = None,
         solids: Callable[[], pin.GeometryModel] | None = None,
+        neighbours: Callable[[], tuple[Neighbours, ...]] | None = None,
         remarks: Sequence[str] = (),
     ) -> None:
         super().__init__(
@@ -74,7 +75,8 @@ class Arm(JointSpace):
         self._flange = flange
         self._build_geometry, self._robot = geometry, robot
         self._find_exclusions, self._read_solids = exclusions, solids
-        self._find_hulls = hulls
+        self._find_hulls, self._find_neighbours = hulls, neighbours
+        self._fit = None if exclusions is None else geometry
         self._data = model.createData()
         self._chain = chain_of(name, model, self._flange)
         self.remarks = tuple(remarks)
@@ -97,6 +99,8 @@ class Arm(JointSpace):
         name: str | None = None,
         flange: tuple[str, pin.SE3] | None = None,
         exclusions: Callable[[], tuple[Exclusion, ...] | None] | None = None,
+        neighbours: Callable[[], tuple[Neighbours, ...]] | None = None,
+        solids: Callable[[], pin.GeometryModel | None] | None = None,
     ) -> Arm:
         """The same arm with other capsules, built when they are first asked for.
 
@@ -106,13 +110,18 @@ class Arm(JointSpace):
             Name and pose, in the frame of the flange, of the frame that becomes the flange.
         exclusions : callable, optional
             Gives the pairs of the new capsules that are not watched; default those of the arm.
+        neighbours, solids : callable, optional
+            Give :attr:`neighbours`, and the exact shapes in all of the new capsules; default those
+            of the arm.
         """
         made = copy(self)
-        made.__dict__.pop("geometry", None)
+        for known in ("geometry", "exclusions", "neighbours", "solids", "fit"):
+            made.__dict__.pop(known, None)
         made._build_geometry, made.name = geometry, name or self.name
-        if exclusions is not None:
-            made.__dict__.pop("exclusions", None)
-            made._find_exclusions = exclusions
+        made._find_exclusions = exclusions or (lambda: self.exclusions)
+        made._find_neighbours = neighbours or (lambda: self.neighbours)
+        made._read_solids = solids or (lambda: self.solids)
+        made._fit = self._fit and (geometry if solids else lambda: self.fit)
         if flange is not None:
             made.__dict__.pop("_wrist_geometry", None)
             made.model, at = self.model.copy(), self.model.frames[self._flange]
@@ -144,6 +153,17 @@ class Arm(JointSpace):
         """Of capsules by name the corners (V, 3) of the convex hull of what they contain, in the
         frame of their joint [m]: between the shape and the capsule."""
         return self._find_hulls() if self._find_hulls else {}
+
+    @cached_property
+    def neighbours(self) -> tuple[Neighbours, ...]:
+        """Pairs of shapes of adjacent links that are watched all the same."""
+        return self._find_neighbours() if self._find_neighbours else ()
+
+    @cached_property
+    def fit(self) -> pin.GeometryModel | None:
+        """The capsules as they were fitted around :attr:`solids`, whatever :attr:`geometry` has
+        become; None where the evidence was not looked for."""
+        return self._fit() if self._fit else None
 
     @cached_property
     def solids(self) -> pin.GeometryModel | None:

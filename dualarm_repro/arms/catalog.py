@@ -143,10 +143,11 @@ def _urdf_path(path: Path, field: str, urdf: str) -> Path:
 
 def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
     capsules: Callable[[], pin.GeometryModel] = partial(_enclosed, solids)
-    exclusions = hulls = None
+    exclusions = hulls = neighbours = None
     if solids.shapes in (Shapes.FITTED, Shapes.VISUAL):
         fitted = FittedLinks(solids)
         capsules, exclusions, hulls = fitted.geometry, fitted.exclusions, fitted.hulls
+        neighbours = fitted.neighbours
     return Arm(
         name,
         title,
@@ -156,6 +157,7 @@ def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
         types=urdf.types,
         exclusions=exclusions,
         hulls=hulls,
+        neighbours=neighbours,
         solids=solids.solids,
         remarks=solids.remarks,
     )

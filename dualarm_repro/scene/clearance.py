@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .hull_pairs import refine
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
 from .placement import place
 from .quantities import array_of
 from .scene import Scene
+from .shape_pairs import refine
 
 _NO_WITNESS = np.empty((0, 0, 3, 3))
 # Configurations handled at once, so that their cores stay in the cache of the processor.

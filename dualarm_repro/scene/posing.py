@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
 from ..arms.sliding import SlidingChain, sliding_frames
 from ..kernel import kernel
+from ..tracking import kept_with_owner
 
 
 class Links(NamedTuple):
@@ -24,7 +24,7 @@ class Links(NamedTuple):
     radius: np.ndarray
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def links_of(arm: Arm) -> Links:
     """Capsules of ``arm.geometry``."""
     data = arm.model.createData()
