@@ -40,50 +40,35 @@ def block_function(
 ) -> str:
     """Source of ``name(q, k, out)`` for flat q (N n), constants k and flat results out (N m).
 
-    It returns the number of the first configuration with an entry that is not finite, -1 if there
-    is none.
+    It returns whether all of q is so near to 0, and finite, that the results can be taken.
     """
     n, m = chain.joints, len(results)
     used = {name for _, operands in program.needed(results).values() for name in operands}
     used |= {term.name for term in results}
     turning = [j for j in range(n) if used & {f"s{j + 1}", f"c{j + 1}"}]
     sliding = [j for j in range(n) if f"d{j + 1}" in used]
-    # Places in the buffer: n joint values or sines, n cosines, then what is written.
-    first = 2 * n
-    written = [(first + e) * LANES for e in range(m)]
+    # Places in the buffer: n joint values, then what is written.
+    written = [(n + e) * LANES for e in range(m)]
     lines, values = program.lines(results)
-    fixed = [(at, term) for at, term in zip(written, results, strict=True) if not term.name]
-    moving = [(at, v) for at, v, term in zip(written, values, results, strict=True) if term.name]
+    places = list(zip(written, values, results, strict=True))
     text = [f"def {name}(q, k, out):"]
     text += [f"    k{i} = k[{i}]" for i in _used(program, results, constants)]
-    text += [f"    w = np.zeros({(first + m) * LANES})"]
-    text += [f"    w[{at}:{at + LANES}] = {term.text}" for at, term in fixed if term.sign]
+    text += [f"    w = np.zeros({(n + m) * LANES})"]
+    text += [f"    w[{at}:{at + LANES}] = {v}" for at, v, term in places if not term.name]
     text += [
+        "    near = True",
         f"    count = q.size // {n}",
         f"    for start in range(0, count, {LANES}):",
         f"        rows = min({LANES}, count - start)",
         f"        at = start * {n}",
         "        for i in range(rows):",
         *[f"            w[{j * LANES} + i] = q[at + {n} * i + {j}]" for j in range(n)],
-        "        near = True",
-        f"        for i in range({n * LANES}):",
-        "            near &= abs(w[i]) <= FAR",
-        "        if near:",
-        *_sines(turning, n, "sincos"),
-        "        else:",
-        f"            for i in range(rows):",
-        f"                for j in range({n}):",
-        f"                    if not isfinite(w[j * {LANES} + i]):",
-        "                        return start + i",
-        *_sines(turning, n, "sincos_anywhere"),
         f"        for i in range({LANES}):",
+        *[f"            near &= abs(w[{j * LANES} + i]) <= FAR" for j in range(n)],
         *[f"            d{j + 1} = w[{j * LANES} + i]" for j in sliding],
-        *[
-            f"            s{j + 1}, c{j + 1} = w[{j * LANES} + i], w[{(n + j) * LANES} + i]"
-            for j in turning
-        ],
+        *[f"            s{j + 1}, c{j + 1} = sincos(w[{j * LANES} + i])" for j in turning],
         *[f"            {line}" for line in lines],
-        *[f"            w[{at} + i] = {value}" for at, value in moving],
+        *[f"            w[{at} + i] = {v}" for at, v, term in places if term.name],
         f"        to = start * {m}",
         f"        if rows == {LANES}:",
         f"            for i in range(0, {LANES}, {WIDTH}):",
@@ -100,23 +85,10 @@ def block_function(
         "        else:",
         "            for i in range(rows):",
         f"                for e in range({m}):",
-        f"                    out[to + {m} * i + e] = w[{first * LANES} + e * {LANES} + i]",
-        "    return -1",
+        f"                    out[to + {m} * i + e] = w[{n * LANES} + e * {LANES} + i]",
+        "    return near",
     ]
     return "\n".join(text) + "\n"
-
-
-def _sines(joints: Sequence[int], n: int, function: str) -> list[str]:
-    if not joints:
-        return ["            pass"]
-    return [
-        f"            for i in range({LANES}):",
-        *[
-            f"                w[{j * LANES} + i], w[{(n + j) * LANES} + i] = "
-            f"{function}(w[{j * LANES} + i])"
-            for j in joints
-        ],
-    ]
 
 
 def _used(program: Program, results: Sequence[Term], constants: int) -> list[int]:
