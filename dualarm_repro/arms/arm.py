@@ -5,28 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import cached_property, partial
-from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pinocchio as pin
-import sympy as sp
 from numpy.typing import ArrayLike
 
 from ..errors import UnsupportedArmError
-from . import dh, kernels, sliding
 from .capsules import capsule_geometry
-from .chain import chain_of
+from .chain import Chain, SlidingChain, chain_of
 from .dh_model import FLANGE, build_model
 from .exclusions import Exclusion
 from .joint_space import JointSpace
 from .joint_type import JointType
-from .kernels import Chain
+from .kernels import Kinematics
 from .poses import check_poses
 from .robot_file import DHRobot
 from .shapes import Shapes
-from .sliding import SlidingChain
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+# One configuration as the compiled code takes it; what differs is checked and converted first.
+_ARRAY, _ROW, _FLOAT = np.ndarray, (8,), np.dtype(np.float64)
 
 
 class Arm(JointSpace):
@@ -74,8 +77,7 @@ class Arm(JointSpace):
         self._build_geometry, self._robot = geometry, robot
         self._find_exclusions, self._read_solids = exclusions, solids
         self._find_hulls = hulls
-        self._data = model.createData()
-        self._chain = chain_of(name, model, self._flange)
+        self._kinematics = Kinematics(chain_of(name, model, self._flange))
         self.remarks = tuple(remarks)
         self.velocity_limit = model.velocityLimit.copy()
 
@@ -118,8 +120,7 @@ class Arm(JointSpace):
             pose, kind = at.placement * flange[1], pin.FrameType.OP_FRAME
             frame = pin.Frame(flange[0], at.parentJoint, self._flange, pose, kind)
             made._flange = made.model.addFrame(frame)
-            made._chain = chain_of(made.name, made.model, made._flange)
-        made._data = made.model.createData()
+            made._kinematics = Kinematics(chain_of(made.name, made.model, made._flange))
         return made
 
     def __repr__(self) -> str:
@@ -158,24 +159,24 @@ class Arm(JointSpace):
         UnsupportedArmError
             A joint slides, which whoever asks for this chain does not know.
         """
-        if isinstance(self._chain, SlidingChain):
-            name = self.model.names[1 + int(np.argmax(self._chain.slides))]
+        if isinstance(self._kinematics.chain, SlidingChain):
+            name = self.model.names[1 + int(np.argmax(self._kinematics.chain.slides))]
             raise UnsupportedArmError(
                 f"arm {self.name}: joint {name} is prismatic, and this method knows joints that "
                 f"turn only: lock={{{name!r}: ...}} fixes it"
             )
-        return self._chain
+        return self._kinematics.chain
 
     @property
     def motion(self) -> Chain | SlidingChain:
         """The constant transforms, whether joints slide or not."""
-        return self._chain
+        return self._kinematics.chain
 
     @property
     def stretched(self) -> float:
         """Length of the way from the base over all joint origins to the flange, with every
         prismatic joint out to its farther limit [m]."""
-        steps = np.linalg.norm(self._chain.translation, axis=1).sum()
+        steps = np.linalg.norm(self._kinematics.chain.translation, axis=1).sum()
         slides = self.slides
         return float(steps + np.maximum(abs(self.lower[slides]), abs(self.upper[slides])).sum())
 
@@ -201,15 +202,15 @@ class Arm(JointSpace):
         ConfigurationError
             Wrong shape, NaN or infinity.
         """
-        q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.poses(self._chain, q)
-        pin.forwardKinematics(self.model, self._data, q)
-        return pin.updateFramePlacement(self.model, self._data, self._flange).homogeneous
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one, kinematics = np.empty((4, 4)), self._kinematics
+            if kinematics.pose.compiled(q, kinematics.constants, one):
+                return one
+        return self._shaped(self.configurations(q), self._kinematics.poses)
 
     def positions(self, q: ArrayLike) -> np.ndarray:
         """Flange position p(q) in the base frame [m], (nq,) -> (3,) or (N, nq) -> (N, 3)."""
-        return self._batch(self._kernels.positions, self.configurations(q))
+        return self._shaped(self.configurations(q), self._kinematics.positions)
 
     def joint_positions(self, q: ArrayLike) -> np.ndarray:
         """Origins of the joint frames 1 ... nq and of the flange in the base frame [m].
@@ -221,7 +222,7 @@ class Arm(JointSpace):
         -------
         ndarray (nq + 1, 3) or (N, nq + 1, 3)
         """
-        return self._batch(self._kernels.frame_origins, self.configurations(q))
+        return self._shaped(self.configurations(q), self._kinematics.frame_origins)
 
     def jacobian(self, q: ArrayLike) -> np.ndarray:
         """Geometric Jacobian [v; omega] = J(q) dq at the flange origin, axes of the base.
@@ -237,12 +238,11 @@ class Arm(JointSpace):
         ConfigurationError
             Wrong shape, NaN or infinity.
         """
-        q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.jacobians(self._chain, q)
-        frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        jacobian = pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
-        return jacobian.reshape(6, self.nq)  # Pinocchio drops the axis of a single joint
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one, kinematics = np.empty((6, self.nq)), self._kinematics
+            if kinematics.jacobian.compiled(q, kinematics.constants, one):
+                return one
+        return self._shaped(self.configurations(q), self._kinematics.jacobians)
 
     def manipulability(self, q: ArrayLike) -> float | np.ndarray:
         """Yoshikawa's measure w(q) = sqrt(det(J J^T)).
@@ -253,10 +253,13 @@ class Arm(JointSpace):
         -------
         float or ndarray (N,)
         """
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one, kinematics = np.empty((1, 1)), self._kinematics
+            if kinematics.manipulability.compiled(q, kinematics.constants, one):
+                return float(one[0, 0])
         q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.manipulabilities(self._chain, q)
-        return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
+        w = self._kinematics.manipulabilities(np.atleast_2d(q))
+        return w if q.ndim == 2 else float(w[0])
 
     def ik(
         self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
@@ -320,7 +323,9 @@ class Arm(JointSpace):
         UnsupportedArmError
             The arm is not given by a DH table.
         """
-        return dh.forward_kinematics(self._dh_robot("symbolic forward kinematics"))
+        from .dh import forward_kinematics  # sympy is slow to import
+
+        return forward_kinematics(self._dh_robot("symbolic forward kinematics"))
 
     def link_transforms(self) -> list[sp.Matrix]:
         """The link transforms of a DH arm in table order, exact; their product is T(q).
@@ -330,7 +335,9 @@ class Arm(JointSpace):
         UnsupportedArmError
             The arm is not given by a DH table.
         """
-        return dh.link_transforms(self._dh_robot("symbolic link transforms"))
+        from .dh import link_transforms
+
+        return link_transforms(self._dh_robot("symbolic link transforms"))
 
     def mirrored(self, name: str | None = None) -> Arm:
         """The reflection M T(q) M at -q, M = diag(1, -1, 1, 1), of a DH arm.
@@ -343,12 +350,9 @@ class Arm(JointSpace):
         robot = self._dh_robot("the mirror image").mirrored()
         return Arm.from_dh(name or f"{self.name}-mirrored", robot)
 
-    def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
-        return kernel(self._chain, q) if q.ndim == 2 else kernel(self._chain, q[np.newaxis])[0]
-
-    @property
-    def _kernels(self) -> ModuleType:
-        return sliding if isinstance(self._chain, SlidingChain) else kernels
+    def _shaped(self, q: np.ndarray, rows: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+        """Values of rows for one configuration (nq,) or for many (N, nq)."""
+        return rows(q) if q.ndim == 2 else rows(q[np.newaxis])[0]
 
     @cached_property
     def _wrist_geometry(self) -> WristGeometry:

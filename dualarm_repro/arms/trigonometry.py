@@ -1,8 +1,9 @@
 """Sine, cosine and arctangent without branches, so that loops over them become SIMD code.
 
-Polynomials of S. L. Moshier, Methods and Programs for Mathematical Functions, 1989. No fused
-multiply-add is used, so the same input gives the same bits on every CPU. Quadrants are told by the
-last bits of a number, and signs are changed in its first.
+Polynomials of S. L. Moshier, Methods and Programs for Mathematical Functions, 1989. Where a
+product and a sum are rounded once, this is written out, so the same input gives the same bits on
+every CPU (one without such an instruction is slower). Quadrants are told by the last bits of a
+number, and signs are changed in its first.
 """
 
 from __future__ import annotations
@@ -39,21 +40,27 @@ def _number(context, bits):  # type: ignore[no-untyped-def]
     )
 
 
+@intrinsic
+def _fma(context, a, b, c):  # type: ignore[no-untyped-def]
+    """a b + c, rounded once."""
+    return types.float64(a, b, c), lambda _, builder, __, parts: builder.fma(*parts)
+
+
 @kernel
 def sincos(x):
     """sin x and cos x [x in rad] to 1.2e-16 for |x| < FAR."""
-    shifted = x * 0.6366197723675814 + _ROUND
+    shifted = _fma(x, 0.6366197723675814, _ROUND)
     k = shifted - _ROUND
-    r = (x - k * _PART) - k * _REST
+    r = _fma(-k, _REST, _fma(-k, _PART, x))
     t = r * r
-    s = 1.58962301576546568060e-10 * t - 2.50507477628578072866e-8
-    s = (s * t + 2.75573136213857245213e-6) * t - 1.98412698295895385996e-4
-    s = (s * t + 8.33333333332211858878e-3) * t - 1.66666666666666307295e-1
-    s = s * t * r + r
-    c = 2.08757008419747316778e-9 - 1.13585365213876817300e-11 * t
-    c = (c * t - 2.75573141792967388112e-7) * t + 2.48015872888517045348e-5
-    c = (c * t - 1.38888888888730564116e-3) * t + 4.16666666666665929218e-2
-    c = c * t * t - 0.5 * t + 1.0
+    s = _fma(1.58962301576546568060e-10, t, -2.50507477628578072866e-8)
+    s = _fma(_fma(s, t, 2.75573136213857245213e-6), t, -1.98412698295895385996e-4)
+    s = _fma(_fma(s, t, 8.33333333332211858878e-3), t, -1.66666666666666307295e-1)
+    s = _fma(s * t, r, r)
+    c = _fma(-1.13585365213876817300e-11, t, 2.08757008419747316778e-9)
+    c = _fma(_fma(c, t, -2.75573141792967388112e-7), t, 2.48015872888517045348e-5)
+    c = _fma(_fma(c, t, -1.38888888888730564116e-3), t, 4.16666666666665929218e-2)
+    c = _fma(_fma(c, t, -0.5), t, 1.0)
     quadrant = _bits(shifted)
     odd = (quadrant & 1) != 0
     sine = c if odd else s
@@ -61,12 +68,6 @@ def sincos(x):
     sine = _number(_bits(sine) ^ ((quadrant & 2) << 62))
     cosine = _number(_bits(cosine) ^ (((quadrant + 1) & 2) << 62))
     return sine, cosine
-
-
-@kernel
-def sincos_anywhere(x):
-    """sin x and cos x of any x; far angles, as of a joint that turns for ever, by the C library."""
-    return sincos(x) if abs(x) <= FAR else (math.sin(x), math.cos(x))
 
 
 @kernel

@@ -100,6 +100,11 @@ class Program:
                 wanted.update(self.statements[name][1])
         return {name: made for name, made in self.statements.items() if name in wanted}
 
+    def names(self, results: Sequence[Term]) -> set[str]:
+        """Names of all that the results depend on, and their own."""
+        found = {operand for _, made in self.needed(results).values() for operand in made}
+        return found | {term.name for term in results}
+
     def lines(self, results: Sequence[Term]) -> tuple[list[str], list[str]]:
         """The needed statements as lines of Python, and the results as expressions.
 

@@ -14,45 +14,50 @@ from .program import Program, Term
 from .simd import STORES, WIDTH
 from .structure import Structure
 
-LANES = 32
+LANES = 16
 
 
 def plain_function(
-    name: str, program: Program, results: Sequence[Term], chain: Structure, constants: int
+    name: str, program: Program, results: Sequence[Term], chain: Structure
 ) -> str:
     """Source of ``name(s, c, d, k)``, which gives the results as a tuple.
 
     ``s``, ``c`` and ``d`` hold an entry for each joint: sine, cosine and displacement, of which a
     joint has the first two or the third; ``k`` the constants.
     """
+    used = program.names(results)
+    turning, sliding = _joints(used, chain)
     lines, values = program.lines(results)
-    turning = [j for j, slides in enumerate(chain.slides) if not slides]
-    sliding = [j for j, slides in enumerate(chain.slides) if slides]
     reads = [f"s{j + 1}, c{j + 1} = s[{j}], c[{j}]" for j in turning]
     reads += [f"d{j + 1} = d[{j}]" for j in sliding]
-    reads += [f"k{i} = k[{i}]" for i in _used(program, results, constants)]
+    reads += [f"k{i} = k[{i}]" for i in _constants(used)]
     body = "\n    ".join([*reads, *lines, f"return ({', '.join(values)},)"])
     return f"def {name}(s, c, d, k):\n    {body}\n"
 
 
 def block_function(
-    name: str, program: Program, results: Sequence[Term], chain: Structure, constants: int
+    name: str, program: Program, results: Sequence[Term], chain: Structure
 ) -> str:
-    """Source of ``name(q, k, out)`` for flat q (N n), constants k and flat results out (N m).
+    """Source of ``name(q, k, matrix)`` for flat q (N n), constants k and results in a matrix of N m
+    entries.
 
-    It returns whether all of q is so near to 0, and finite, that the results can be taken.
+    It returns whether the sizes fit and all of q is so near to 0, and finite, that the results can
+    be taken.
     """
     n, m = chain.joints, len(results)
-    used = {name for _, operands in program.needed(results).values() for name in operands}
-    used |= {term.name for term in results}
-    turning = [j for j in range(n) if used & {f"s{j + 1}", f"c{j + 1}"}]
-    sliding = [j for j in range(n) if f"d{j + 1}" in used]
+    used = program.names(results)
+    turning, sliding = _joints(used, chain)
     # Places in the buffer: n joint values, then what is written.
     written = [(n + e) * LANES for e in range(m)]
     lines, values = program.lines(results)
     places = list(zip(written, values, results, strict=True))
-    text = [f"def {name}(q, k, out):"]
-    text += [f"    k{i} = k[{i}]" for i in _used(program, results, constants)]
+    text = [
+        f"def {name}(q, k, matrix):",
+        "    out = matrix.reshape(-1)",
+        f"    if q.size % {n} or q.size * {m} != out.size * {n}:",
+        "        return False",
+    ]
+    text += [f"    k{i} = k[{i}]" for i in _constants(used)]
     text += [f"    w = np.zeros({(n + m) * LANES})"]
     text += [f"    w[{at}:{at + LANES}] = {v}" for at, v, term in places if not term.name]
     text += [
@@ -91,8 +96,12 @@ def block_function(
     return "\n".join(text) + "\n"
 
 
-def _used(program: Program, results: Sequence[Term], constants: int) -> list[int]:
-    """Numbers of the constants that the results depend on."""
-    names = {term.name for term in results}
-    names.update(*(operands for _, operands in program.needed(results).values()))
-    return [i for i in range(constants) if f"k{i}" in names]
+def _constants(used: set[str]) -> list[int]:
+    """Numbers of the constants among the names."""
+    return sorted(int(name[1:]) for name in used if name.startswith("k"))
+
+
+def _joints(used: set[str], chain: Structure) -> tuple[list[int], list[int]]:
+    """Joints that turn and joints that slide, counted from 0, whose motion is among the names."""
+    turning = [j for j in range(chain.joints) if used & {f"s{j + 1}", f"c{j + 1}"}]
+    return turning, [j for j in range(chain.joints) if f"d{j + 1}" in used]

@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..kernels import Chain
-from ..sliding import SlidingChain
+from ..chain import Chain, SlidingChain
 from .program import ONE, ZERO, Term, Vector
 
 #: Entries of rotations, and lengths as a share of the longest, that count as 0; and 1 likewise.
