@@ -58,6 +58,14 @@ def block_function(
         "        return False",
     ]
     text += [f"    k{i} = k[{i}]" for i in _constants(used)]
+    text += [
+        f"    if q.size == {n}:",
+        *[f"        d{j + 1} = q[{j}]" for j in sliding],
+        *[f"        s{j + 1}, c{j + 1} = sincos(q[{j}])" for j in turning],
+        *[f"        {line}" for line in lines],
+        *[f"        out[{e}] = {value}" for e, value in enumerate(values)],
+        f"        return {' and '.join(f'abs(q[{j}]) <= FAR' for j in range(n))}",
+    ]
     text += [f"    w = np.zeros({(n + m) * LANES})"]
     text += [f"    w[{at}:{at + LANES}] = {v}" for at, v, term in places if not term.name]
     text += [
