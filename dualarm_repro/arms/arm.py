@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ..errors import UnsupportedArmError
 from .capsules import capsule_geometry
 from .chain import Chain, SlidingChain, chain_of
+from .codegen.generated import Compiled, nothing
 from .dh_model import FLANGE, build_model
 from .exclusions import Exclusion
 from .joint_space import JointSpace
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
 # One configuration as the compiled code takes it; what differs is checked and converted first.
-_ARRAY, _ROW, _FLOAT = np.ndarray, (8,), np.dtype(np.float64)
+_ARRAY, _ROW, _FLOAT, _POSE, _empty = np.ndarray, (8,), np.dtype(np.float64), (4, 4), np.empty
 
 
 class Arm(JointSpace):
@@ -77,7 +78,7 @@ class Arm(JointSpace):
         self._build_geometry, self._robot = geometry, robot
         self._find_exclusions, self._read_solids = exclusions, solids
         self._find_hulls = hulls
-        self._kinematics = Kinematics(chain_of(name, model, self._flange))
+        self._move_by(Kinematics(chain_of(name, model, self._flange)))
         self.remarks = tuple(remarks)
         self.velocity_limit = model.velocityLimit.copy()
 
@@ -115,12 +116,11 @@ class Arm(JointSpace):
             made.__dict__.pop("exclusions", None)
             made._find_exclusions = exclusions
         if flange is not None:
-            made.__dict__.pop("_wrist_geometry", None)
             made.model, at = self.model.copy(), self.model.frames[self._flange]
             pose, kind = at.placement * flange[1], pin.FrameType.OP_FRAME
             frame = pin.Frame(flange[0], at.parentJoint, self._flange, pose, kind)
             made._flange = made.model.addFrame(frame)
-            made._kinematics = Kinematics(chain_of(made.name, made.model, made._flange))
+            made._move_by(Kinematics(chain_of(made.name, made.model, made._flange)))
         return made
 
     def __repr__(self) -> str:
@@ -203,10 +203,11 @@ class Arm(JointSpace):
             Wrong shape, NaN or infinity.
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one, kinematics = np.empty((4, 4)), self._kinematics
-            if kinematics.pose.compiled(q, kinematics.constants, one):
+            one = _empty(_POSE)
+            if self._one_pose(q, self._constants, one):
                 return one
-        return self._shaped(self.configurations(q), self._kinematics.poses)
+        q, self._one_pose = self.configurations(q), self._kinematics.pose.compiled
+        return self._shaped(q, self._kinematics.poses)
 
     def positions(self, q: ArrayLike) -> np.ndarray:
         """Flange position p(q) in the base frame [m], (nq,) -> (3,) or (N, nq) -> (N, 3)."""
@@ -239,10 +240,11 @@ class Arm(JointSpace):
             Wrong shape, NaN or infinity.
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one, kinematics = np.empty((6, self.nq)), self._kinematics
-            if kinematics.jacobian.compiled(q, kinematics.constants, one):
+            one = _empty((6, self.nq))
+            if self._one_jacobian(q, self._constants, one):
                 return one
-        return self._shaped(self.configurations(q), self._kinematics.jacobians)
+        q, self._one_jacobian = self.configurations(q), self._kinematics.jacobian.compiled
+        return self._shaped(q, self._kinematics.jacobians)
 
     def manipulability(self, q: ArrayLike) -> float | np.ndarray:
         """Yoshikawa's measure w(q) = sqrt(det(J J^T)).
@@ -254,10 +256,13 @@ class Arm(JointSpace):
         float or ndarray (N,)
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one, kinematics = np.empty((1, 1)), self._kinematics
-            if kinematics.manipulability.compiled(q, kinematics.constants, one):
+            one = _empty((1, 1))
+            if self._one_manipulability(q, self._constants, one):
                 return float(one[0, 0])
-        q = self.configurations(q)
+        q, self._one_manipulability = (
+            self.configurations(q),
+            self._kinematics.manipulability.compiled,
+        )
         w = self._kinematics.manipulabilities(np.atleast_2d(q))
         return w if q.ndim == 2 else float(w[0])
 
@@ -349,6 +354,16 @@ class Arm(JointSpace):
         """
         robot = self._dh_robot("the mirror image").mirrored()
         return Arm.from_dh(name or f"{self.name}-mirrored", robot)
+
+    def _move_by(self, kinematics: Kinematics) -> None:
+        """Take over the kinematics, and forget what was derived from others."""
+        self._kinematics, self._constants = kinematics, kinematics.constants
+        self.__dict__.pop("_wrist_geometry", None)
+        # Compiled code for one configuration, straight at hand: a call takes less than 1 us. The
+        # first call puts it there.
+        self._one_pose: Compiled = nothing
+        self._one_jacobian: Compiled = nothing
+        self._one_manipulability: Compiled = nothing
 
     def _shaped(self, q: np.ndarray, rows: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """Values of rows for one configuration (nq,) or for many (N, nq)."""

@@ -20,6 +20,8 @@ from .source import block_function, plain_function
 from .structure import Structure
 
 Carried = tuple[tuple[int, Vector], ...]
+#: Function of flat configurations, constants and a matrix that takes the results.
+Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
 
 
 class Generated:
@@ -54,19 +56,19 @@ class Generated:
         return made
 
     @cached_property
-    def compiled(self) -> Callable[[np.ndarray, np.ndarray, np.ndarray], bool]:
+    def compiled(self) -> Compiled:
         """The loop over configurations, see :func:`.source.block_function`.
 
         Its name holds the digest of its text, under which its machine code is kept. Where numba is
         switched off it is a function that does nothing and says so.
         """
         if numba.config.DISABLE_JIT:
-            return _nothing
+            return nothing
         text = block_function("block", self._program, self._results, self._structure)
         name = f"{self.name}_{sha256(text.encode()).hexdigest()[:16]}"
         text = text.replace("def block(", f"def {name}(", 1)
         exec(compile(text, f"<generated {name}>", "exec"), _COMPILED)
-        made: Callable[[np.ndarray, np.ndarray, np.ndarray], bool] = kernel(_COMPILED[name])
+        made: Compiled = kernel(_COMPILED[name])
         return made
 
     def rows(self, q: np.ndarray, constants: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
@@ -103,7 +105,8 @@ def generated(quantity: str, structure: Structure, carried: Carried = ()) -> Gen
     return Generated(quantity, structure, program, results)
 
 
-def _nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
+def nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
+    """Compiled code that there is not: it has done nothing, and says so."""
     return False
 
 
