@@ -204,9 +204,11 @@ class Arm(JointSpace):
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
             one = _empty(_POSE)
-            if self._one_pose(q, self._constants, one):
+            run, constants = self._one_pose
+            if run(q, constants, one):
                 return one
-        q, self._one_pose = self.configurations(q), self._kinematics.pose.compiled
+        q, known = self.configurations(q), self._kinematics
+        self._one_pose = known.pose.compiled, known.constants
         return self._shaped(q, self._kinematics.poses)
 
     def positions(self, q: ArrayLike) -> np.ndarray:
@@ -241,9 +243,11 @@ class Arm(JointSpace):
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
             one = _empty((6, self.nq))
-            if self._one_jacobian(q, self._constants, one):
+            run, constants = self._one_jacobian
+            if run(q, constants, one):
                 return one
-        q, self._one_jacobian = self.configurations(q), self._kinematics.jacobian.compiled
+        q, known = self.configurations(q), self._kinematics
+        self._one_jacobian = known.jacobian.compiled, known.constants
         return self._shaped(q, self._kinematics.jacobians)
 
     def manipulability(self, q: ArrayLike) -> float | np.ndarray:
@@ -257,12 +261,11 @@ class Arm(JointSpace):
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
             one = _empty((1, 1))
-            if self._one_manipulability(q, self._constants, one):
+            run, constants = self._one_manipulability
+            if run(q, constants, one):
                 return float(one[0, 0])
-        q, self._one_manipulability = (
-            self.configurations(q),
-            self._kinematics.manipulability.compiled,
-        )
+        q, known = self.configurations(q), self._kinematics
+        self._one_manipulability = known.manipulability.compiled, known.constants
         w = self._kinematics.manipulabilities(np.atleast_2d(q))
         return w if q.ndim == 2 else float(w[0])
 
@@ -357,13 +360,14 @@ class Arm(JointSpace):
 
     def _move_by(self, kinematics: Kinematics) -> None:
         """Take over the kinematics, and forget what was derived from others."""
-        self._kinematics, self._constants = kinematics, kinematics.constants
+        self._kinematics = kinematics
         self.__dict__.pop("_wrist_geometry", None)
         # Compiled code for one configuration, straight at hand: a call takes less than 1 us. The
         # first call puts it there.
-        self._one_pose: Compiled = nothing
-        self._one_jacobian: Compiled = nothing
-        self._one_manipulability: Compiled = nothing
+        unknown: tuple[Compiled, np.ndarray] = nothing, kinematics.constants
+        self._one_pose = unknown
+        self._one_jacobian = unknown
+        self._one_manipulability = unknown
 
     def _shaped(self, q: np.ndarray, rows: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """Values of rows for one configuration (nq,) or for many (N, nq)."""
