@@ -24,6 +24,7 @@ FLOORS = (
         "differences",
         "instrument",
         "quiet_import",
+        "terminal",
     ),
     ("ledger",),
     ("arms",),
