@@ -21,8 +21,8 @@ class Chain(NamedTuple):
 
 
 class SlidingChain(NamedTuple):
-    """Constant transforms as in :class:`Chain`, and which joints slide, Tz(q) instead of Rz(q), (n,)
-    of bool."""
+    """Constant transforms as in :class:`Chain`, and which joints slide, Tz(q) for Rz(q): ``slides``
+    (n,) of bool."""
 
     rotation: np.ndarray
     translation: np.ndarray

@@ -91,7 +91,8 @@ class Generated:
         """Values (N, size) for q (N, n) by the plain function."""
         columns = q.T
         out = np.empty((len(q), self.size))
-        for e, values in enumerate(self.plain(np.sin(columns), np.cos(columns), columns, constants)):
+        found = self.plain(np.sin(columns), np.cos(columns), columns, constants)
+        for e, values in enumerate(found):
             out[:, e] = values
         return out
 

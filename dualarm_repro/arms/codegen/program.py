@@ -134,4 +134,3 @@ class Program:
             self._known[key] = name = f"t{len(self._known)}"
             self.statements[name] = (key[0], key[1:])
         return self._known[key]
-

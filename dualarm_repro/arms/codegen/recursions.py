@@ -148,9 +148,7 @@ def seen_from(program: Program, chain: Structure, origin: int) -> tuple[list[Fra
         columns = tuple(zip(*R, strict=True))
         turned = [tuple(program.inner(row, r) for r in R) for row in behind.rotation]
         back = [-program.inner(c, t) for c in columns]
-        behind = Frame(
-            (turned[0], turned[1], turned[2]), place(program, behind, tuple(back))
-        )
+        behind = Frame((turned[0], turned[1], turned[2]), place(program, behind, tuple(back)))
         behind = _undo(program, behind, chain, joint)
         frames[joint] = behind
     return [frames[joint] for joint in range(1, chain.joints + 1)], BASE.origin

@@ -65,9 +65,7 @@ def _by_configuration(builder: ir.IRBuilder, rows: list[ir.Value]) -> list[ir.Va
     ]
 
 
-def _shuffled(
-    builder: ir.IRBuilder, a: ir.Value, b: ir.Value, places: Sequence[int]
-) -> ir.Value:
+def _shuffled(builder: ir.IRBuilder, a: ir.Value, b: ir.Value, places: Sequence[int]) -> ir.Value:
     mask = ir.Constant(ir.VectorType(_INTEGER, len(places)), [_INTEGER(i) for i in places])
     return builder.shuffle_vector(a, b, mask)
 

@@ -17,9 +17,7 @@ from .structure import Structure
 LANES = 16
 
 
-def plain_function(
-    name: str, program: Program, results: Sequence[Term], chain: Structure
-) -> str:
+def plain_function(name: str, program: Program, results: Sequence[Term], chain: Structure) -> str:
     """Source of ``name(s, c, d, k)``, which gives the results as a tuple.
 
     ``s``, ``c`` and ``d`` hold an entry for each joint: sine, cosine and displacement, of which a
@@ -35,9 +33,7 @@ def plain_function(
     return f"def {name}(s, c, d, k):\n    {body}\n"
 
 
-def block_function(
-    name: str, program: Program, results: Sequence[Term], chain: Structure
-) -> str:
+def block_function(name: str, program: Program, results: Sequence[Term], chain: Structure) -> str:
     """Source of ``name(q, k, matrix)`` for flat q (N n), constants k and results in a matrix of N m
     entries.
 

@@ -122,9 +122,7 @@ def test_compiled_code_and_numpy_agree(arm, rng):
 def test_ends_of_capsules(arm, rng):
     q, links = arm.random_configurations(40, rng), links_of(arm)
     expected = cores_in(frames_of(arm, np.eye(3, 4), q), links.joint, links.local)
-    found = Kinematics(arm.motion).points(
-        q, np.repeat(links.joint, 2), links.local.reshape(-1, 3)
-    )
+    found = Kinematics(arm.motion).points(q, np.repeat(links.joint, 2), links.local.reshape(-1, 3))
     assert_allclose(found.reshape(expected.shape), expected, rtol=0, atol=1e-12)
 
 
