@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 
+import numba
 import numpy as np
 import pinocchio as pin
 from timing import OURS, Row, timed
@@ -15,8 +16,9 @@ from dualarm_repro.arms.dh_model import FLANGE
 from dualarm_repro.arms.workspace import sample_workspace
 
 NAME = "irb120"
-BATCH, LOOP, POINTS = 20_000, 2_000, 100_000
-POSE, JACOBIAN = "pose of the flange", "Jacobian and manipulability"
+BATCH, LOOP, POINTS = 100_000, 2_000, 100_000
+POSE, JACOBIAN = "pose of the flange", "Jacobian"
+MEASURE = "manipulability by the Jacobian"
 INVERSE, CLOUD = "inverse kinematics, all branches", "cloud of 100 000 flange positions"
 
 
@@ -28,7 +30,15 @@ def measure() -> Iterator[Row]:
     poses = arm.fk(few)
     yield timed(POSE, OURS, lambda: arm.fk(q), BATCH)
     yield timed(POSE, f"{OURS}, one at a time", lambda: [arm.fk(row) for row in few], LOOP)
-    yield timed(JACOBIAN, OURS, lambda: (arm.jacobian(q), arm.manipulability(q)), BATCH)
+    yield timed(POSE, "memory alone: read q, write poses", _touch(q), BATCH)
+    yield timed(JACOBIAN, OURS, lambda: arm.jacobian(q), BATCH)
+    yield timed(
+        JACOBIAN, f"{OURS}, one at a time", lambda: [arm.jacobian(row) for row in few], LOOP
+    )
+    yield timed(MEASURE, OURS, lambda: arm.manipulability(q), BATCH)
+    yield timed(
+        MEASURE, f"{OURS}, one at a time", lambda: [arm.manipulability(row) for row in few], LOOP
+    )
     yield from _pinocchio(arm, few)
     yield timed(INVERSE, OURS, lambda: arm.ik_branches(poses), LOOP)
     yield timed(INVERSE, f"{OURS}, one at a time", lambda: [arm.ik(T) for T in poses], LOOP)
@@ -38,6 +48,23 @@ def measure() -> Iterator[Row]:
         yield from _eaik(arm, poses)
     yield timed(CLOUD, OURS, lambda: sample_workspace(arm, POINTS, rng), 1)
     yield timed(CLOUD, "pinocchio, Python loop", _cloud_by_loop(arm, rng), 1)
+
+
+def _touch(q: np.ndarray) -> Callable[[], np.ndarray]:
+    """Reads every configuration and writes every pose, and computes a sum only."""
+
+    @numba.njit
+    def touch(flat: np.ndarray, joints: int) -> np.ndarray:
+        out = np.empty((len(flat) // joints, 16))
+        for k in range(len(out)):
+            total = 0.0
+            for j in range(joints):
+                total += flat[joints * k + j]
+            for e in range(16):
+                out[k, e] = total
+        return out
+
+    return lambda: touch(q.reshape(-1), q.shape[1])
 
 
 def _pinocchio(arm: Arm, q: np.ndarray) -> Iterator[Row]:
@@ -51,10 +78,16 @@ def _pinocchio(arm: Arm, q: np.ndarray) -> Iterator[Row]:
 
     def jacobian() -> None:
         for row in q:
-            abs(np.linalg.det(pin.computeFrameJacobian(model, data, row, flange, axes)))
+            pin.computeFrameJacobian(model, data, row, flange, axes)
 
+    def measure() -> list[float]:
+        jacobians = (pin.computeFrameJacobian(model, data, row, flange, axes) for row in q)
+        return [abs(np.linalg.det(one)) for one in jacobians]
+
+    np.testing.assert_allclose(measure(), arm.manipulability(q), atol=1e-12)
     yield timed(POSE, "pinocchio, Python loop", pose, len(q))
     yield timed(JACOBIAN, "pinocchio, Python loop", jacobian, len(q))
+    yield timed(MEASURE, "pinocchio, Python loop", measure, len(q))
 
 
 def _roboticstoolbox(q: np.ndarray) -> Iterator[Row]:
@@ -71,8 +104,9 @@ def _roboticstoolbox(q: np.ndarray) -> Iterator[Row]:
     ets = rtb.DHRobot(links).ets().compile()
     np.testing.assert_allclose(ets.eval(q), load_arm(NAME).fk(q), atol=1e-9)
     yield timed(POSE, "roboticstoolbox ETS", lambda: ets.eval(q), len(q))
+    yield timed(JACOBIAN, "roboticstoolbox ETS", lambda: [ets.jacob0(row) for row in q], len(q))
     yield timed(
-        JACOBIAN,
+        MEASURE,
         "roboticstoolbox ETS",
         lambda: [abs(np.linalg.det(ets.jacob0(row))) for row in q],
         len(q),

@@ -26,6 +26,7 @@ FLOORS = (
         "differences",
         "instrument",
         "quiet_import",
+        "terminal",
     ),
     ("ledger",),
     ("arms",),

@@ -5,28 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import cached_property, partial
-from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pinocchio as pin
-import sympy as sp
 from numpy.typing import ArrayLike
 
 from ..errors import UnsupportedArmError
-from . import dh, kernels, sliding
 from .capsules import capsule_geometry
-from .chain import chain_of
+from .chain import Chain, SlidingChain, chain_of
+from .codegen.generated import Compiled, nothing
 from .dh_model import FLANGE, build_model
 from .exclusions import Exclusion, Neighbours
 from .joint_space import JointSpace
 from .joint_type import JointType
-from .kernels import Chain
+from .kernels import Kinematics
 from .poses import check_poses
 from .robot_file import DHRobot
 from .shapes import Shapes
-from .sliding import SlidingChain
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+# One configuration as the compiled code takes it; what differs is checked and converted first.
+_ARRAY, _ROW, _FLOAT, _POSE, _empty = np.ndarray, (8,), np.dtype(np.float64), (4, 4), np.empty
 
 
 class Arm(JointSpace):
@@ -77,8 +81,7 @@ class Arm(JointSpace):
         self._find_exclusions, self._read_solids = exclusions, solids
         self._find_hulls, self._find_neighbours = hulls, neighbours
         self._fit = None if exclusions is None else geometry
-        self._data = model.createData()
-        self._chain = chain_of(name, model, self._flange)
+        self._move_by(Kinematics(chain_of(name, model, self._flange)))
         self.remarks = tuple(remarks)
         self.velocity_limit = model.velocityLimit.copy()
 
@@ -123,13 +126,11 @@ class Arm(JointSpace):
         made._read_solids = solids or (lambda: self.solids)
         made._fit = self._fit and (geometry if solids else lambda: self.fit)
         if flange is not None:
-            made.__dict__.pop("_wrist_geometry", None)
             made.model, at = self.model.copy(), self.model.frames[self._flange]
             pose, kind = at.placement * flange[1], pin.FrameType.OP_FRAME
             frame = pin.Frame(flange[0], at.parentJoint, self._flange, pose, kind)
             made._flange = made.model.addFrame(frame)
-            made._chain = chain_of(made.name, made.model, made._flange)
-        made._data = made.model.createData()
+            made._move_by(Kinematics(chain_of(made.name, made.model, made._flange)))
         return made
 
     def __repr__(self) -> str:
@@ -179,24 +180,24 @@ class Arm(JointSpace):
         UnsupportedArmError
             A joint slides, which whoever asks for this chain does not know.
         """
-        if isinstance(self._chain, SlidingChain):
-            name = self.model.names[1 + int(np.argmax(self._chain.slides))]
+        if isinstance(self._kinematics.chain, SlidingChain):
+            name = self.model.names[1 + int(np.argmax(self._kinematics.chain.slides))]
             raise UnsupportedArmError(
                 f"arm {self.name}: joint {name} is prismatic, and this method knows joints that "
                 f"turn only: lock={{{name!r}: ...}} fixes it"
             )
-        return self._chain
+        return self._kinematics.chain
 
     @property
     def motion(self) -> Chain | SlidingChain:
         """The constant transforms, whether joints slide or not."""
-        return self._chain
+        return self._kinematics.chain
 
     @property
     def stretched(self) -> float:
         """Length of the way from the base over all joint origins to the flange, with every
         prismatic joint out to its farther limit [m]."""
-        steps = np.linalg.norm(self._chain.translation, axis=1).sum()
+        steps = np.linalg.norm(self._kinematics.chain.translation, axis=1).sum()
         slides = self.slides
         return float(steps + np.maximum(abs(self.lower[slides]), abs(self.upper[slides])).sum())
 
@@ -222,15 +223,18 @@ class Arm(JointSpace):
         ConfigurationError
             Wrong shape, NaN or infinity.
         """
-        q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.poses(self._chain, q)
-        pin.forwardKinematics(self.model, self._data, q)
-        return pin.updateFramePlacement(self.model, self._data, self._flange).homogeneous
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one = _empty(_POSE)
+            run, constants = self._one_pose
+            if run(q, constants, one):
+                return one
+        q, known = self.configurations(q), self._kinematics
+        self._one_pose = known.pose.compiled, known.constants
+        return self._shaped(q, self._kinematics.poses)
 
     def positions(self, q: ArrayLike) -> np.ndarray:
         """Flange position p(q) in the base frame [m], (nq,) -> (3,) or (N, nq) -> (N, 3)."""
-        return self._batch(self._kernels.positions, self.configurations(q))
+        return self._shaped(self.configurations(q), self._kinematics.positions)
 
     def joint_positions(self, q: ArrayLike) -> np.ndarray:
         """Origins of the joint frames 1 ... nq and of the flange in the base frame [m].
@@ -242,7 +246,7 @@ class Arm(JointSpace):
         -------
         ndarray (nq + 1, 3) or (N, nq + 1, 3)
         """
-        return self._batch(self._kernels.frame_origins, self.configurations(q))
+        return self._shaped(self.configurations(q), self._kinematics.frame_origins)
 
     def jacobian(self, q: ArrayLike) -> np.ndarray:
         """Geometric Jacobian [v; omega] = J(q) dq at the flange origin, axes of the base.
@@ -258,12 +262,14 @@ class Arm(JointSpace):
         ConfigurationError
             Wrong shape, NaN or infinity.
         """
-        q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.jacobians(self._chain, q)
-        frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        jacobian = pin.computeFrameJacobian(self.model, self._data, q, self._flange, frame)
-        return jacobian.reshape(6, self.nq)  # Pinocchio drops the axis of a single joint
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one = _empty((6, self.nq))
+            run, constants = self._one_jacobian
+            if run(q, constants, one):
+                return one
+        q, known = self.configurations(q), self._kinematics
+        self._one_jacobian = known.jacobian.compiled, known.constants
+        return self._shaped(q, self._kinematics.jacobians)
 
     def manipulability(self, q: ArrayLike) -> float | np.ndarray:
         """Yoshikawa's measure w(q) = sqrt(det(J J^T)).
@@ -274,10 +280,15 @@ class Arm(JointSpace):
         -------
         float or ndarray (N,)
         """
-        q = self.configurations(q)
-        if q.ndim == 2:
-            return self._kernels.manipulabilities(self._chain, q)
-        return float(np.prod(np.linalg.svd(self.jacobian(q), compute_uv=False)))
+        if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
+            one = _empty((1, 1))
+            run, constants = self._one_manipulability
+            if run(q, constants, one):
+                return float(one[0, 0])
+        q, known = self.configurations(q), self._kinematics
+        self._one_manipulability = known.manipulability.compiled, known.constants
+        w = self._kinematics.manipulabilities(np.atleast_2d(q))
+        return w if q.ndim == 2 else float(w[0])
 
     def ik(
         self, T: ArrayLike, *, reference: ArrayLike | None = None, within_limits: bool = True
@@ -341,7 +352,9 @@ class Arm(JointSpace):
         UnsupportedArmError
             The arm is not given by a DH table.
         """
-        return dh.forward_kinematics(self._dh_robot("symbolic forward kinematics"))
+        from .dh import forward_kinematics  # sympy is slow to import
+
+        return forward_kinematics(self._dh_robot("symbolic forward kinematics"))
 
     def link_transforms(self) -> list[sp.Matrix]:
         """The link transforms of a DH arm in table order, exact; their product is T(q).
@@ -351,7 +364,9 @@ class Arm(JointSpace):
         UnsupportedArmError
             The arm is not given by a DH table.
         """
-        return dh.link_transforms(self._dh_robot("symbolic link transforms"))
+        from .dh import link_transforms
+
+        return link_transforms(self._dh_robot("symbolic link transforms"))
 
     def mirrored(self, name: str | None = None) -> Arm:
         """The reflection M T(q) M at -q, M = diag(1, -1, 1, 1), of a DH arm.
@@ -364,12 +379,20 @@ class Arm(JointSpace):
         robot = self._dh_robot("the mirror image").mirrored()
         return Arm.from_dh(name or f"{self.name}-mirrored", robot)
 
-    def _batch(self, kernel: Callable[..., np.ndarray], q: np.ndarray) -> np.ndarray:
-        return kernel(self._chain, q) if q.ndim == 2 else kernel(self._chain, q[np.newaxis])[0]
+    def _move_by(self, kinematics: Kinematics) -> None:
+        """Take over the kinematics, and forget what was derived from others."""
+        self._kinematics = kinematics
+        self.__dict__.pop("_wrist_geometry", None)
+        # Compiled code for one configuration, straight at hand: a call takes less than 1 us. The
+        # first call puts it there.
+        unknown: tuple[Compiled, np.ndarray] = nothing, kinematics.constants
+        self._one_pose = unknown
+        self._one_jacobian = unknown
+        self._one_manipulability = unknown
 
-    @property
-    def _kernels(self) -> ModuleType:
-        return sliding if isinstance(self._chain, SlidingChain) else kernels
+    def _shaped(self, q: np.ndarray, rows: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+        """Values of rows for one configuration (nq,) or for many (N, nq)."""
+        return rows(q) if q.ndim == 2 else rows(q[np.newaxis])[0]
 
     @cached_property
     def _wrist_geometry(self) -> WristGeometry:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import UnsupportedArmError
-from .kernels import Chain
+from .chain import Chain
 
 Vector = tuple[float, float, float]
 

@@ -23,7 +23,7 @@ class SystemArrays(NamedTuple):
     Attributes
     ----------
     rotation, translation : (n + A, 3, 3), (n + A, 3)
-        C_0 ... C_nq of every arm one after the other, as in :class:`..arms.kernels.Chain`.
+        C_0 ... C_nq of every arm one after the other, as in :class:`..arms.chain.Chain`.
     base : (A, 3, 4)
     start : (A + 1,)
         First joint of every arm, and n.

@@ -9,7 +9,8 @@ import pinocchio as pin
 
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
-from ..arms.sliding import SlidingChain, sliding_frames
+from ..arms.chain import SlidingChain
+from ..arms.sliding import sliding_frames
 from ..kernel import kernel
 from ..tracking import kept_with_owner
 
@@ -71,7 +72,7 @@ def frames_of(arm: Arm, base: np.ndarray, q: np.ndarray) -> np.ndarray:
 def link_frames(chain, base, q):
     """Frames of the base and of the joints, F_0 = base, F_j = F_(j-1) C_(j-1) Rz(q_j).
 
-    C_j are the constant transforms of :class:`dualarm_repro.arms.kernels.Chain`; z is the axis of
+    C_j are the constant transforms of :class:`dualarm_repro.arms.chain.Chain`; z is the axis of
     every joint.
 
     Parameters

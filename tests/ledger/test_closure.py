@@ -68,7 +68,7 @@ def test_own_body_kernel_and_setting(clone):
 
     lottery = module_of(load().studies["xue_lottery"].compute).removeprefix("dualarm_repro.")
     assert "xue_lottery" in edited(clone, lottery, body)
-    kernels = edited(clone, "arms.kernels", lambda text: text.replace("0.0", "1e-300", 1))
+    kernels = edited(clone, "arms.trigonometry", lambda text: text.replace("0.0", "1e-300", 1))
     assert kernels == set(STUDIES)
     defaults = edited(clone, "planning.settings", lambda text: text + "\nX = 2\n")
     assert {"xue_lottery", "qiu_fit"} <= defaults

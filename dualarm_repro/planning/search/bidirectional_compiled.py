@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arms.kernels import Chain
+from ...arms.chain import Chain
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
