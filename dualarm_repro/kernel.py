@@ -91,7 +91,7 @@ def _layout(kind: Any) -> Any:
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
-    compiled: Any = njit(error_model="numpy")(function)
+    compiled: Any = njit(error_model="numpy", nogil=True)(function)
     try:
         compiled._cache = _Cache(function)
     except RuntimeError:  # no folder to keep machine code in
