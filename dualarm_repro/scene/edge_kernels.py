@@ -36,11 +36,12 @@ _PLACES = 16 * LANES
 
 @kernel
 def edge_buffers(model):
-    """Buffers for :func:`edge_free`: pose of a block, half stretches, capsules (middle and half
-    core), ways of the capsules, stretches that wait."""
+    """Buffers for :func:`edge_free`: pose of a block, sines and cosines, half stretches,
+    capsules (middle and half core), ways of the capsules, stretches that wait."""
     capsules, joints = model.lever.shape
     return (
         np.zeros(_PLACES),
+        np.zeros((3, joints * LANES)),
         np.zeros(LANES),
         np.zeros((capsules, 6 * LANES)),
         np.zeros((capsules, joints + 1)),
@@ -56,7 +57,7 @@ def edge_free(model, start, end, margin, known, buffers):
     ``known``: pairs that do not move relative to each other are known to keep it. Where a pair
     keeps the margin by less than ``model.finest`` [m] the edge counts as not free.
     """
-    w, halves, ends, travel, waiting = buffers
+    w, turns, halves, ends, travel, waiting = buffers
     if model.between_standing <= margin:
         return False, 0
     widest = set_travel(model, start, end, travel)
@@ -71,7 +72,7 @@ def edge_free(model, start, end, margin, known, buffers):
             row = count + min(k, rows - 1)
             w[_AT + k], w[_HALF + k] = waiting[row, 0], waiting[row, 1]
             halves[k] = waiting[row, 1]
-        pose_block(model, start, end, w, ends)
+        pose_block(model, start, end, w, turns, ends)
         looked += rows
         unsure = unsure_lanes(model, margin, known, travel, halves, ends)
         if unsure < 0:
@@ -111,25 +112,15 @@ def set_travel(model, start, end, travel):
 
 
 @kernel
-def pose_block(model, start, end, w, ends):
+def pose_block(model, start, end, w, turns, ends):
     """Capsules of the controlled arms at the parameters of a block."""
     capsule = 0
+    _set_turns(model, start, end, w, turns)
     for j in range(len(start)):
-        base, change = start[j], end[j] - start[j]
-        if model.slides[j]:
-            for k in range(LANES):
-                w[k] = 0.0
-                w[_COS + k] = 1.0
-        elif change == 0.0:
-            s, c = sincos(base)
-            for k in range(LANES):
-                w[k] = s
-                w[_COS + k] = c
-        else:
-            for k in range(LANES):
-                s, c = sincos(base + w[_AT + k] * change)
-                w[k] = s
-                w[_COS + k] = c
+        for k in range(LANES):
+            w[k] = turns[1, j * LANES + k]
+        for k in range(LANES):
+            w[_COS + k] = turns[2, j * LANES + k]
         if model.begins[j]:
             _begin(model.rotation[j], model.translation[j], w)
         else:
@@ -137,11 +128,27 @@ def pose_block(model, start, end, w, ends):
         if model.slides[j]:
             for r in range(3):
                 for k in range(LANES):
-                    way = base + w[_AT + k] * change
+                    way = start[j] + w[_AT + k] * (end[j] - start[j])
                     w[_POS + r * LANES + k] += way * w[_ROT + (3 * r + 2) * LANES + k]
         for c in range(capsule, model.until[j]):
             _place(model.middle[c], model.core[c], w, ends[c])
         capsule = model.until[j]
+
+
+@kernel
+def _set_turns(model, start, end, w, turns):
+    """Angle, sine and cosine of all joints in all lanes, (3, n LANES); 0 of joints that slide."""
+    for j in range(len(start)):
+        base, change = start[j], end[j] - start[j]
+        if model.slides[j]:
+            base, change = 0.0, 0.0
+        for k in range(LANES):
+            turns[0, j * LANES + k] = base + w[_AT + k] * change
+    angle, sine, cosine = turns[0], turns[1], turns[2]
+    for k in range(len(start) * LANES):
+        s, c = sincos(angle[k])
+        sine[k] = s
+        cosine[k] = c
 
 
 @kernel

@@ -9,7 +9,7 @@ the length of the core, ``way`` the relative way over the edge [m].
 
 from __future__ import annotations
 
-from ..kernel import kernel
+from ..kernel import inlined, kernel
 from .boxes import segment_box_distance
 from .polytope import Polytope, segment_polytope
 from .segments import PARALLEL
@@ -41,12 +41,12 @@ def near_point(a, p, apart, way, halves):
     return near
 
 
-@kernel
+@inlined
 def _clamp(s):
     return min(max(s, -1.0), 1.0)
 
 
-@kernel
+@inlined
 def _gap(x, y, z, u, v, w, e, f, g, uu, vv):
     """Squared distance of the cores s (u, v, w) and (x, y, z) + t (e, f, g), s and t in [-1, 1],
     see :func:`.segments.closest_parameters`; ``uu``, ``vv``: squares of the half lengths."""
