@@ -176,8 +176,9 @@ def test_bad_configurations():
 
 @pytest.mark.parametrize("changes", [{}, ONE_SIDED, {"ending": {"search_limit": 3}}])
 @pytest.mark.parametrize("jobs", [1, 3])
-def test_batch_gives_the_plans_of_single_searches(changes, jobs, rng):
+def test_batch_gives_the_plans_of_single_searches(changes, jobs):
     """To the last bit, for any number of threads, around a hull that moves too."""
+    rng = np.random.default_rng(11)
     goals = GOAL + rng.uniform(-0.3, 0.3, (40, len(GOAL)))
     starts = START + rng.uniform(-0.1, 0.1, goals.shape)
     given = (obstacles(None), settings(**changes), moving_hulls())

@@ -60,8 +60,10 @@ def plan_bidirectional_batch(
         raise InputError("plan_bidirectional_batch", "jobs", jobs, "at least one thread")
     made = search_problem(placed, first[0], last[0], obstacles, settings, hulls)
     if settings.enforce_limits:
-        for ends in zip(first, last, strict=True):
-            checked_ends(placed, *ends, within_limits=True)
+        inside = placed.arm.within_limits(first) & placed.arm.within_limits(last)
+        if not inside.all():
+            worst = int(inside.argmin())
+            checked_ends(placed, first[worst], last[worst], within_limits=True)
     field, rules, sides = search_field(made), search_rules(made), 2 if settings.two_sided else 1
 
     def searched(rows: slice) -> list[Callable[[float], SearchRecord]]:
