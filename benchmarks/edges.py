@@ -32,7 +32,10 @@ def scenes() -> dict[str, Scene]:
     pair.append(PlacedArm("b", arm, turned))
     balls = {"first": Sphere([0.35, 0.1, 0.5], 0.08), "second": Sphere([0.3, -0.25, 0.4], 0.07)}
     between = {"first": Sphere([0.0, 0.1, 0.6], 0.05), "second": Sphere([0.0, -0.25, 0.4], 0.06)}
-    return {"one arm": Scene([PlacedArm("a", arm)], balls), "two arms, 12 joints": Scene(pair, between)}
+    return {
+        "one arm": Scene([PlacedArm("a", arm)], balls),
+        "two arms, 12 joints": Scene(pair, between),
+    }
 
 
 def checker(scene: Scene) -> Callable[[np.ndarray], bool]:

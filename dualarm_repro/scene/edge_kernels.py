@@ -1,8 +1,9 @@
 """Freedom of contact of straight joint edges, certified, many configurations in SIMD lanes.
 
 Along q(s) = a + s (b - a) a pair of bodies moves by at most w relative to each other (levers of
-:mod:`.certificate`). Where its distance at s exceeds the margin by more than w h, the whole stretch
-[s - h, s + h] is free. An edge begins as ``LANES`` stretches; those that are not certain are halved.
+:mod:`.certificate`). Where its distance at s exceeds the margin by more than w h, the whole
+stretch [s - h, s + h] is free. An edge begins as ``LANES`` stretches; those that are not certain
+are halved.
 
 The poses of a block of configurations lie in one flat buffer at constant places, and a pair is
 looked at in a loop that only reads and gathers bits, so that both become SIMD code.

@@ -147,9 +147,7 @@ def _joints(scene: Scene) -> tuple[np.ndarray, ...]:
     return rotation, translation, begins, slides
 
 
-def _capsules(
-    scene: Scene, carried: Sequence[Body]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _capsules(scene: Scene, carried: Sequence[Body]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cores (C, 2, 3) in the frames of their joints, radii and levers (C, n)."""
     widest = np.abs(scene.limits).max(axis=0)
     links = {placed.name: links_of(placed.arm) for placed in scene.arms}

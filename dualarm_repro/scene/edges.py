@@ -43,7 +43,8 @@ def free_edges(
     """
     first, last = (np.atleast_2d(scene.configurations(end)) for end in (starts, ends))
     if first.shape != last.shape:
-        raise ConfigurationError("free_edges", "ends", last.shape, f"as many as starts: {first.shape}")
+        expected = f"as many as starts: {first.shape}"
+        raise ConfigurationError("free_edges", "ends", last.shape, expected)
     if not 0.0 <= margin < np.inf:
         raise InputError("free_edges", "margin", margin, "a finite number that is not negative")
     if jobs < 1:

@@ -109,7 +109,7 @@ def _record(
 
 @kernel
 def run_all(field, rules, hulls, starts, goals, noted, flips, ends):
-    """:func:`.bidirectional_compiled.run` for every row; fills ``ends`` (N, 2): reason, searches."""
+    """:func:`.bidirectional_compiled.run` for every row; ``ends`` (N, 2): reason, searches."""
     joints, points = starts.shape[1], noted.clearance.shape[3]
     for n in range(len(starts)):
         rows = SearchRows(noted.path[n], noted.clearance[n], noted.factor[n])

@@ -106,7 +106,7 @@ def grow(model, trees, samples, step, margin, most, buffers):
 
 @kernel
 def _extended(model, trees, side, target, step, margin, buffers):
-    """The new node of a tree on the way to ``target``, at most a step away; -1 where it is barred."""
+    """The new node of a tree on the way to ``target``, at most a step away; -1 if it is barred."""
     nodes, count = trees.nodes[side], trees.count
     near, least = 0, np.inf
     for n in range(count[side]):
@@ -191,8 +191,8 @@ def shortened(model, path, places, margin, most, patience, count, buffers):
         for k in range(size - 1):
             length += _square(rows[k], rows[k + 1]) ** 0.5
         low, high = min(places[n, 0], places[n, 1]), max(places[n, 0], places[n, 1])
-        first, saved = _point(rows, size, low * length, new[0])
-        last, until = _point(rows, size, high * length, new[1])
+        first = _point(rows, size, low * length, new[0])
+        last = _point(rows, size, high * length, new[1])
         fruitless += 1
         if last <= first:
             continue
@@ -211,16 +211,16 @@ def shortened(model, path, places, margin, most, patience, count, buffers):
 
 @kernel
 def _point(rows, size, way, out):
-    """The point of a path that lies ``way`` from its start, and the row before it."""
+    """The point of a path that lies ``way`` from its start into ``out``; returns the row before."""
     for k in range(size - 1):
         length = _square(rows[k], rows[k + 1]) ** 0.5
         if way <= length or k == size - 2:
             share = min(way / length, 1.0) if length > 0.0 else 0.0
             for j in range(len(out)):
                 out[j] = rows[k, j] + share * (rows[k + 1, j] - rows[k, j])
-            return k, way
+            return k
         way -= length
-    return size - 2, way
+    return size - 2
 
 
 @kernel
