@@ -38,19 +38,19 @@ def scenes() -> dict[str, Scene]:
     }
 
 
-def checker(scene: Scene) -> Callable[[np.ndarray], bool]:
+def checker(scene: Scene, margin: float) -> Callable[[np.ndarray], bool]:
     """Whether a configuration keeps the margin, by Pinocchio and coal."""
     model, geometry = whole_model(scene)
     data, shapes = model.createData(), pin.GeometryData(geometry)
     for request in shapes.collisionRequests:
-        request.security_margin = _MARGIN
+        request.security_margin = margin
     return lambda q: not pin.computeCollisions(model, data, geometry, shapes, q, True)
 
 
 def measure() -> Iterator[Row]:
     """Time per edge and per path; a peer that is not installed is left out."""
     for name, scene in scenes().items():
-        free, rng = checker(scene), np.random.default_rng(0)
+        free, rng = checker(scene, _MARGIN), np.random.default_rng(0)
         starts = rng.uniform(*scene.limits, (_EDGES, scene.nq))
         ends = starts + rng.uniform(-0.4, 0.4, starts.shape)
 

@@ -76,7 +76,7 @@ def plan_rrt_connect_compiled(
         outcome, path = search(model, trees, samples, places, step, margin, most, _PATIENCE)
         if outcome in (MET, SPENT):
             break
-    checks = int(trees.count[3])
+    checks = int(trees.counts[3])
     if outcome == SPENT or (hulled and certified_minimum(scene, path, enough=0.0).lower <= 0.0):
         return SampledPlan(None, checks)
     return SampledPlan(path, checks)

@@ -18,12 +18,12 @@ MET, SPENT, MORE = 0, 1, 2
 
 
 class Trees(NamedTuple):
-    """Nodes (2, M, nq) of the trees of start and goal, the parents (2, M) of each, and in ``count``
+    """Nodes (2, M, nq) of the trees of start and goal, the parents (2, M) of each, and in ``counts``
     how many each has, which of them grows next, and configurations that were looked at."""
 
     nodes: np.ndarray
     parent: np.ndarray
-    count: np.ndarray
+    counts: np.ndarray
 
 
 @kernel
@@ -47,7 +47,7 @@ def search(model, trees, samples, places, step, margin, most, patience):
         MET and the path; SPENT, or MORE where only the samples are used up, and the start.
     """
     buffers = edge_buffers(model)
-    start, goal, count = trees.nodes[0, 0], trees.nodes[1, 0], trees.count
+    start, goal, count = trees.nodes[0, 0], trees.nodes[1, 0], trees.counts
     if count[3] == 0:
         for n in range(2):
             end = trees.nodes[n, 0]
@@ -85,7 +85,7 @@ def grow(model, trees, samples, step, margin, most, buffers):
         MET and the nodes of the first and second tree that coincide; SPENT; MORE where the samples
         are used up.
     """
-    count, reached = trees.count, np.empty(samples.shape[1])
+    count, reached = trees.counts, np.empty(samples.shape[1])
     for target in samples:
         if count[3] >= most or max(count[0], count[1]) >= trees.nodes.shape[1] - 1:
             return SPENT, 0, 0
@@ -107,7 +107,7 @@ def grow(model, trees, samples, step, margin, most, buffers):
 @kernel
 def _extended(model, trees, side, target, step, margin, buffers):
     """The new node of a tree on the way to ``target``, at most a step away; -1 if it is barred."""
-    nodes, count = trees.nodes[side], trees.count
+    nodes, count = trees.nodes[side], trees.counts
     near, least = 0, np.inf
     for n in range(count[side]):
         square = _square(nodes[n], target)
