@@ -106,16 +106,26 @@ def edge_model(scene: Scene, left_out: frozenset[int] = frozenset()) -> EdgeMode
     half = 0.5 * (core[:, 1] - core[:, 0])
     placed, bodies = place(scene, np.zeros((1, scene.nq)), np.zeros(1)), scene.bodies
     long = 0.5 * (placed.cores[0, :, 1] - placed.cores[0, :, 0])
+    rotation, translation, begins, slides = _joints(scene)
     watched = [pair for k, pair in enumerate(scene.pairs.bodies) if k not in left_out]
+    number = {body: k for k, body in enumerate(carried)}
+    both, standing, boxes, planes, hulls = _pairs(scene, watched, number)
     return EdgeModel(
-        *_joints(scene),
+        rotation,
+        translation,
+        begins,
+        slides,
         np.searchsorted(row, np.arange(scene.nq), "right"),
         core.mean(axis=1),
         half,
         radius,
         np.linalg.norm(half, axis=1),
         lever,
-        *_pairs(scene, watched, {body: k for k, body in enumerate(carried)}),
+        both,
+        standing,
+        boxes,
+        planes,
+        hulls,
         np.hstack([placed.cores[0].mean(axis=1), long]),
         bodies.radius,
         np.linalg.norm(long, axis=1),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -60,7 +61,7 @@ def plan_bidirectional_batch(
         raise InputError("plan_bidirectional_batch", "jobs", jobs, "at least one thread")
     made = search_problem(placed, first[0], last[0], obstacles, settings, hulls)
     if settings.enforce_limits:
-        inside = placed.arm.within_limits(first) & placed.arm.within_limits(last)
+        inside = np.all([placed.arm.within_limits(end) for end in (first, last)], axis=0)
         if not inside.all():
             worst = int(inside.argmin())
             checked_ends(placed, first[worst], last[worst], within_limits=True)
@@ -78,9 +79,12 @@ def plan_bidirectional_batch(
         run_all(field, rules, made.hulls, first[rows], last[rows], noted, flips, ends)
         found = []
         for n, (reason, steps) in enumerate(ends.tolist()):
-            parts = (tuple(part[n, k, : steps + 1].copy() for k in range(sides)) for part in noted)
+            paths, clearances, factors = (
+                tuple(part[n, k, : steps + 1].copy() for k in range(sides)) for part in noted
+            )
             turned = tuple(flips[n, :sides].tolist())
-            found.append(_record(*parts, turned, list(StopReason)[reason]))
+            end = list(StopReason)[reason]
+            found.append(partial(SearchRecord, paths, clearances, factors, turned, end))
         return found
 
     portions = [slice(k, k + _PORTION) for k in range(0, len(first), _PORTION)]
@@ -94,17 +98,6 @@ def plan_bidirectional_batch(
         SearchPlan(replace(made, start=a, goal=b), record(mean))
         for a, b, record in zip(first.copy(), last.copy(), found, strict=True)
     ]
-
-
-def _record(
-    paths: tuple[np.ndarray, ...],
-    clearances: tuple[np.ndarray, ...],
-    factors: tuple[np.ndarray, ...],
-    flips: tuple[int, ...],
-    reason: StopReason,
-) -> Callable[[float], SearchRecord]:
-    """A record that lacks its time."""
-    return lambda time: SearchRecord(paths, clearances, factors, flips, reason, time)
 
 
 @kernel

@@ -92,5 +92,5 @@ def _hulled(scene: Scene, ends: np.ndarray, margin: float) -> frozenset[int]:
     cores = place(scene, ends, np.zeros(len(ends))).cores
     gaps = np.empty((len(ends), len(rows)))
     capsules_capsules(cores, scene.bodies.radius, rows, gaps, np.empty((0, 0, 3, 3)))
-    near = (gaps <= margin).any(axis=0)
+    near = np.any(gaps <= margin, axis=0).tolist()
     return frozenset(k for k, one in zip(columns, near, strict=True) if one)

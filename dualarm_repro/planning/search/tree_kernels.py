@@ -18,8 +18,8 @@ MET, SPENT, MORE = 0, 1, 2
 
 
 class Trees(NamedTuple):
-    """Nodes (2, M, nq) of the trees of start and goal, the parents (2, M) of each, and in ``counts``
-    how many each has, which of them grows next, and configurations that were looked at."""
+    """Nodes (2, M, nq) of the trees of start and goal, their parents (2, M), and in ``counts`` how
+    many each tree has, which of them grows next, and configurations that were looked at."""
 
     nodes: np.ndarray
     parent: np.ndarray
