@@ -50,6 +50,10 @@ def free_edges(
     if jobs < 1:
         raise InputError("free_edges", "jobs", jobs, "at least one thread")
     model = edge_model(scene)
+    widest = np.where(model.slides, np.abs(scene.limits).max(axis=0), np.inf)
+    if (np.abs([first, last]) > widest).any():
+        expected = "joints that slide within their limits"
+        raise ConfigurationError("free_edges", "edges", "a slide beyond them", expected)
     free, looked = np.empty(len(first), dtype=np.bool_), np.empty(len(first), dtype=np.int64)
 
     def run(rows: slice) -> None:

@@ -128,10 +128,13 @@ def test_arm_with_joints_that_slide(tmp_path):
     placed = PlacedArm("arm", load_arm(path, shapes="enclosing"))
     scene = Scene([placed], {"ball": Sphere([0.35, 0.1, 0.7], 0.1)})
     starts, ends = _edges(scene, 200, 6)
+    ends = np.clip(ends, *scene.limits)
     free, smallest = free_edges(scene, starts, ends), _smallest(scene, starts, ends)
     assert 0.1 < free.mean() < 0.9
     assert (smallest[free] > 0.0).all()
     assert (smallest[~free] <= 1e-4).all()
+    with pytest.raises(ConfigurationError, match="slide"):
+        free_edges(scene, starts, ends + np.array([0.0, 9.0, 0.0, 0.0]))
 
 
 def _block(cores):

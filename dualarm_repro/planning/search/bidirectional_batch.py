@@ -5,7 +5,6 @@ The same paths as :func:`.bidirectional_compiled.plan_bidirectional_compiled`, s
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -61,13 +60,13 @@ def plan_bidirectional_batch(
         raise InputError("plan_bidirectional_batch", "jobs", jobs, "at least one thread")
     made = search_problem(placed, first[0], last[0], obstacles, settings, hulls)
     if settings.enforce_limits:
-        inside = np.all([placed.arm.within_limits(end) for end in (first, last)], axis=0)
+        inside = np.array([placed.arm.within_limits(end) for end in (first, last)]).all(axis=0)
         if not inside.all():
             worst = int(inside.argmin())
             checked_ends(placed, first[worst], last[worst], within_limits=True)
     field, rules, sides = search_field(made), search_rules(made), 2 if settings.two_sided else 1
 
-    def searched(rows: slice) -> list[Callable[[float], SearchRecord]]:
+    def searched(rows: slice) -> list[partial[SearchRecord]]:
         count, most = len(first[rows]), settings.ending.search_limit + 1
         joints, points = first.shape[1], len(made.points.joint)
         noted = SearchRows(
