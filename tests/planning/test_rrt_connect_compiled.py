@@ -69,7 +69,7 @@ def test_same_seed_same_path_and_another_seed_another(scene, tasks):
 
 def test_straight_line_that_is_free_is_the_path(scene):
     ends = np.zeros((2, scene.nq))
-    ends[1, [0, 6]] = 0.4
+    ends[:, [0, 6]] = [[1.2], [1.6]]
     assert free_edges(scene, ends[:1], ends[1:], MARGIN)[0]
     np.testing.assert_array_equal(planned(scene, ends).path, ends)
 
