@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from importlib.util import find_spec
 
 import numpy as np
+from edges import checker, ompl_path
 from timing import OURS, Row, timed
 
 from dualarm_repro.papers.qiu.document import PRINTED, placed, repelling, truth_scene
 from dualarm_repro.papers.qiu.reading import Slave
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
+from dualarm_repro.planning.search.bidirectional_batch import plan_bidirectional_batch
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
 from dualarm_repro.planning.search.rrt_connect import plan_rrt_connect
 from dualarm_repro.planning.search.time_map import hull_tracks
 
+_BATCH = 64
 TASK, WEAK = "search of one master", "the same with a weaker repulsion"
 BOTH = "master, its hull, and the slave around it"
 
@@ -35,6 +39,10 @@ def measure() -> Iterator[Row]:
 
     yield timed(TASK, OURS, alone, 1)
     yield timed(TASK, f"{OURS}, readable", lambda: alone(plan_bidirectional), 1)
+    many = [np.tile(end, (_BATCH, 1)) for end in (start, goals[0])]
+    batch = partial(plan_bidirectional_batch, master, *many, repelling(), chosen)
+    yield timed(TASK, f"{OURS}, batch of {_BATCH}", batch, _BATCH)
+    yield timed(TASK, f"{OURS}, batch in two threads", partial(batch, jobs=2), _BATCH)
     yield timed(WEAK, OURS, lambda: alone(how=weak), 1)
     yield timed(BOTH, OURS, both, 1)
     if find_spec("ompl"):
@@ -43,5 +51,12 @@ def measure() -> Iterator[Row]:
             TASK,
             "RRT-Connect of OMPL, whole links",
             lambda: plan_rrt_connect(scene, start, goals[0], int(next(seeds))),
+            1,
+        )
+        free, numbers = checker(scene, 0.0), iter(range(10_000))
+        yield timed(
+            TASK,
+            "RRT-Connect of OMPL, checks by Pinocchio, simplified",
+            lambda: ompl_path(scene, start, goals[0], free, next(numbers)),
             1,
         )

@@ -115,8 +115,20 @@ def _layout(kind: Any) -> Any:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
-    compiled: Any = njit(error_model="numpy")(function)
+    """Compile a function with numba; a division by zero gives infinity, without a branch for it.
+
+    It runs without the interpreter's lock, so that threads can share the cores.
+    """
+    return _kept(function, njit(error_model="numpy", nogil=True)(function))
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """The same for a function that is part of a loop over lanes, which only becomes SIMD code
+    without a call in it."""
+    return _kept(function, njit(error_model="numpy", nogil=True, forceinline=True)(function))
+
+
+def _kept(function: Callable[..., Any], compiled: Any) -> Any:
     try:
         compiled._cache = _Cache(function)
     except RuntimeError:  # no folder to keep machine code in

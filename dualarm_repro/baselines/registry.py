@@ -19,7 +19,7 @@ from ..planning.methods import METHODS, Method
 from ..planning.path_plan import as_method
 from ..planning.planner import GROUP, PathPlanner
 from ..planning.settings import APFSettings
-from . import barrier, mutual_avoidance, sampling, shooting
+from . import barrier, compiled_sampling, mutual_avoidance, sampling, shooting
 
 #: Baselines by name. None imports the library behind it before it plans.
 BASELINES: dict[str, PathPlanner] = {
@@ -28,6 +28,8 @@ BASELINES: dict[str, PathPlanner] = {
     "rrt-connect": sampling.rrt_connect,
     "rrt-connect-simplified": sampling.rrt_connect_simplified,
     "rrt-connect-in-turn": sampling.rrt_connect_in_turn,
+    "rrt-connect-compiled": compiled_sampling.rrt_connect_compiled,
+    "rrt-connect-compiled-in-turn": compiled_sampling.rrt_connect_compiled_in_turn,
     "bit-star": sampling.bit_star,
     "trajectory-optimisation": shooting.shooting,
 }

@@ -85,20 +85,26 @@ def link_frames(chain, base, q):
     ndarray (N, n+1, 3, 4)
         Rotation and origin in world coordinates.
     """
-    count, joints = q.shape
-    frames = np.empty((count, joints + 1, 3, 4))
-    for n in range(count):
-        frames[n, 0] = base
-        for j in range(joints):
-            F, G, C, t = frames[n, j], frames[n, j + 1], chain.rotation[j], chain.translation[j]
-            s, c = np.sin(q[n, j]), np.cos(q[n, j])
-            for r in range(3):
-                x = F[r, 0] * C[0, 0] + F[r, 1] * C[1, 0] + F[r, 2] * C[2, 0]
-                y = F[r, 0] * C[0, 1] + F[r, 1] * C[1, 1] + F[r, 2] * C[2, 1]
-                G[r, 0], G[r, 1] = c * x + s * y, c * y - s * x
-                G[r, 2] = F[r, 0] * C[0, 2] + F[r, 1] * C[1, 2] + F[r, 2] * C[2, 2]
-                G[r, 3] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
+    frames = np.empty((len(q), q.shape[1] + 1, 3, 4))
+    for n in range(len(q)):
+        set_frames(chain, base, q[n], frames[n])
     return frames
+
+
+@kernel
+def set_frames(chain, base, q, frames):
+    """The frames (n+1, 3, 4) of one configuration (n,) into ``frames``."""
+    frames[0] = base
+    for j in range(len(q)):
+        s, c = np.sin(q[j]), np.cos(q[j])
+        C, t = chain.rotation[j], chain.translation[j]
+        for r in range(3):
+            a, b, d = frames[j, r, 0], frames[j, r, 1], frames[j, r, 2]
+            x = a * C[0, 0] + b * C[1, 0] + d * C[2, 0]
+            y = a * C[0, 1] + b * C[1, 1] + d * C[2, 1]
+            frames[j + 1, r, 0], frames[j + 1, r, 1] = c * x + s * y, c * y - s * x
+            frames[j + 1, r, 2] = a * C[0, 2] + b * C[1, 2] + d * C[2, 2]
+            frames[j + 1, r, 3] = a * t[0] + b * t[1] + d * t[2] + frames[j, r, 3]
 
 
 def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:

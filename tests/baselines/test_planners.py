@@ -53,7 +53,9 @@ def test_baseline_does_a_task_that_is_free(name, tmp_path):
     assert 0 < problem.evaluations <= 6000  # a sweep that has begun is finished
 
 
-@pytest.mark.parametrize("name", ["rrt-connect", "rrt-connect-simplified", "cbf-qp"])
+@pytest.mark.parametrize(
+    "name", ["rrt-connect", "rrt-connect-simplified", "rrt-connect-compiled", "cbf-qp"]
+)
 def test_same_seed_same_path(name, tmp_path):
     """Also after other runs in the same process."""
     first, _ = judged(name, problem_of(tmp_path, BLOCKED, seed=3, evaluations=4000))
@@ -68,7 +70,7 @@ def test_claim_and_truth_agree_or_the_truth_says_no(name, tmp_path):
     """The straight line of both collides; whoever arrives is judged by all bodies."""
     problem = problem_of(tmp_path, BLOCKED, evaluations=4000)
     plan, found = judged(name, problem)
-    if name in ("rrt-connect", "rrt-connect-simplified"):
+    if name in ("rrt-connect", "rrt-connect-simplified", "rrt-connect-compiled"):
         assert all(one.reached for one in plan.plans.values())
     if name in ("mutual-avoidance-qp", "cbf-qp"):  # they yield rather than touch
         assert found.collision_free
@@ -85,9 +87,13 @@ def test_simplified_path_is_shorter(tmp_path):
     assert length[1] < length[0]
 
 
-@pytest.mark.parametrize("name", sorted(PACKAGES))
+COMPILED = ["rrt-connect-compiled", "rrt-connect-compiled-in-turn"]
+
+
+@pytest.mark.parametrize("name", [*sorted(PACKAGES), *COMPILED])
 def test_obstacle_that_moves_by_itself_is_refused_by_name(name, tmp_path):
-    pytest.importorskip(PACKAGES[name])
+    if name in PACKAGES:
+        pytest.importorskip(PACKAGES[name])
     problem = problem_of(tmp_path, FREE)
     track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
     ball = MovingShape(Sphere([0.0, 0.0, 2.0], 0.1), track)
