@@ -110,7 +110,7 @@ def _scalar(kind: Any, marks: tuple[Any, ...]) -> Requirement:
         return Requirement("a path", _path)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return _choice(tuple(kind), kind)
-    if isinstance(kind, type) and kind is not object and not getattr(kind, "_is_protocol", False):
+    if isinstance(kind, type) and kind not in (object, Any) and not getattr(kind, "_is_protocol", False):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         return _instance((kind,), f"{article} {kind.__name__}")
     return Requirement("anything", lambda value, _: value)

@@ -91,6 +91,8 @@ def _requirements(function: Any) -> dict[str, Requirement]:
         if parameter.kind is parameter.VAR_POSITIONAL:
             break
         kind: Any = parameter.annotation
+        if kind is parameter.empty:
+            kind = Any
         if isinstance(kind, str):
             try:
                 kind = eval(kind, names)

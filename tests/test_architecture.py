@@ -20,6 +20,8 @@ FLOORS = (
         "sources",
         "datafiles",
         "settings",
+        "annotation",
+        "arguments",
         "kernel",
         "differences",
         "instrument",

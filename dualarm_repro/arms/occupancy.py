@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from .arm import Arm
@@ -59,6 +60,7 @@ class Occupancy:
     rotation: np.ndarray
     origin: np.ndarray
 
+    @checked
     def contains(self, points: np.ndarray) -> np.ndarray:
         """Whether points (n, 3) of the base frame [m] lie in reachable cells, (n,) of bool."""
         local = np.ascontiguousarray(points - self.origin) @ self.rotation
@@ -86,6 +88,7 @@ class Occupancy:
         return box @ self.rotation.T + self.origin
 
 
+@checked
 def occupancy(arm: Arm, cell: float, rng: np.random.Generator, samples: int = SAMPLES) -> Occupancy:
     """Mark the cells that a uniform sample of the joints reaches.
 
@@ -120,6 +123,7 @@ def occupancy(arm: Arm, cell: float, rng: np.random.Generator, samples: int = SA
     return Occupancy(cell, -size * cell, counts, covered, rotation, origin)
 
 
+@checked
 def rotation_volumes(
     arm: Arm, cells: Sequence[float], seed: int, samples: int = SAMPLES
 ) -> list[RotationVolume]:

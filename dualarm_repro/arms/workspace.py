@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from .arm import Arm
 
@@ -28,6 +29,7 @@ class VoxelVolume(NamedTuple):
     volume: float
 
 
+@checked
 def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
     """Flange positions p(q) for ``n`` configurations uniform within the limits, (n, 3) [m].
 
@@ -36,6 +38,7 @@ def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
     return arm.positions(arm.random_configurations(n, rng))
 
 
+@checked
 def extents(points: np.ndarray) -> Extents:
     """Extents of a cloud (n, 3) [m]."""
     radius = np.hypot(points[:, 0], points[:, 1])
@@ -48,6 +51,7 @@ def extents(points: np.ndarray) -> Extents:
     )
 
 
+@checked
 def voxel_volume(points: np.ndarray, cells: Sequence[float]) -> list[VoxelVolume]:
     """V = h^3 * (number of cubes of edge h that hold a point), for several h [m].
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from ..settings import choice, code
@@ -34,6 +35,7 @@ class CircleNumbers(NamedTuple):
     law: int
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Circles:
     """One circle per arm, all run once in ``duration``.
@@ -88,6 +90,7 @@ class Circles:
         object.__setattr__(self, "law", choice(TimeLaw, "Circles", "law", self.law))
 
     @classmethod
+    @checked
     def through(
         cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing: Any
     ) -> Circles:
@@ -109,6 +112,7 @@ class Circles:
         """For the kernels."""
         return CircleNumbers(self.centre, self.u, self.v, float(self.duration), code(self.law))
 
+    @checked
     def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """Positions and velocities (A, 3) at a time; it repeats every ``duration``."""
         position, velocity = np.empty_like(self.centre), np.empty_like(self.centre)

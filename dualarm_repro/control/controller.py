@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from .assembly import make_buffers, sense, state
@@ -32,6 +33,7 @@ def control_step(arrays, numbers, q, home, position, velocity, buffers):
     return status, len(program.h), residual(program, x, y, z, w), x
 
 
+@checked
 class VelocityController:
     """min 1/2 |x + lambda (q - q_0)|^2 under task, avoidance rows and joint bounds, step by step.
 

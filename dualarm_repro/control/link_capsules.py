@@ -7,10 +7,12 @@ from collections.abc import Collection, Mapping
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.capsules import LinkCapsule, capsule_ends, geometry_of, not_contained, to_segment
 
 
+@checked
 def with_capsules(
     arm: Arm,
     *,
@@ -40,6 +42,7 @@ def with_capsules(
     return arm.reshaped(build)
 
 
+@checked
 def sticking_out(arm: Arm, q: np.ndarray, joint: int, points: np.ndarray) -> float:
     """Largest distance of points of a link from the capsules of all links, negative inside [m].
 

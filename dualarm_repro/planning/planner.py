@@ -13,6 +13,7 @@ from typing import Protocol
 import numpy as np
 from pydantic import Field
 
+from ..arguments import checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -47,6 +48,7 @@ class Ending(StrEnum):
     DIVERGED = "not converged"
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class FoundPath:
     """A path (N, nq) [rad] of all arms, linear between rows, and what its planner says of it.
@@ -63,6 +65,7 @@ class FoundPath:
         return self.reason == Ending.REACHED
 
 
+@checked
 @dataclass(eq=False)
 class PathProblem:
     """Two configurations of all arms of a scene, and counted access to its distances.
@@ -125,6 +128,7 @@ class PathProblem:
         self.evaluations += 1
         return clearance_gradient(self.scene, q, time)
 
+    @checked
     def at_rest(self, method: str) -> None:
         """Raise if something moves by itself, for a method that knows no time.
 
@@ -137,6 +141,7 @@ class PathProblem:
             if not isinstance(mover, MovingArm) or len(mover.path.index) > 1:
                 raise InputError(method, "moving", name, "a scene in which only the arms move")
 
+    @checked
     def without(self, others: dict[str, np.ndarray]) -> PathProblem:
         """The same for fewer arms: ``others`` (nq,) [rad] stand where it says."""
         scene = self.scene

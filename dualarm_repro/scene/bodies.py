@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from .hull import ConvexHull
 from .moving import MovingArm, MovingShape
@@ -22,6 +23,7 @@ from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 Sort = Literal["capsule", "box", "plane", "hull"]
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class PlacedArm:
     """A controlled arm, the pose of its base in the world and a planner's start and goal [rad]."""

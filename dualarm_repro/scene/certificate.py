@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.fit.triangles import PRISM
 from .clearance import distances
@@ -40,6 +41,7 @@ class Bracket(NamedTuple):
     evaluations: int
 
 
+@checked
 def certified_minimum(
     scene: Scene,
     path: ArrayLike,

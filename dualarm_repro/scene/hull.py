@@ -8,6 +8,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy import spatial
 
+from ..arguments import checked
 from ..arms.fit.triangles import convex
 from ..errors import InputError
 from .polytope import Polytope
@@ -15,6 +16,7 @@ from .quantities import array_of, frozen
 from .vectors import perpendicular
 
 
+@checked
 class ConvexHull:
     """Smallest convex set that contains the points.
 
@@ -65,6 +67,7 @@ class ConvexHull:
             np.stack([normals[one], normals[other]], axis=1),
         )
 
+    @checked
     def moved(self, placement: pin.SE3) -> ConvexHull:
         """The shape after a rigid motion."""
         return ConvexHull(self.vertices @ placement.rotation.T + placement.translation)
@@ -74,6 +77,7 @@ class ConvexHull:
         return convex(self.vertices), coal.Transform3s()
 
 
+@checked
 def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int) -> np.ndarray:
     """c_k + r_k (cos(2 pi i / count) x_k + sin(2 pi i / count) y_k), x_k and y_k normal to axis k.
 

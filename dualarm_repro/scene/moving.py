@@ -14,6 +14,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
@@ -45,6 +46,7 @@ class _Track:
         return np.column_stack([np.interp(time, self.index, column) for column in total.T])
 
 
+@checked
 class JointPath(_Track):
     """Joint vectors q_k at index t_k, q(t) linear in between.
 
@@ -63,6 +65,7 @@ class JointPath(_Track):
         )
         super().__init__("JointPath", len(self.configurations), index)
 
+    @checked
     def at(self, time: np.ndarray) -> np.ndarray:
         """q(t) for times (N,), (N, nq)."""
         k, fraction = self._locate(time)
@@ -70,11 +73,13 @@ class JointPath(_Track):
         start = self.configurations[k]
         return start + fraction[:, None] * (self.configurations[after] - start)
 
+    @checked
     def travel(self, time: np.ndarray) -> np.ndarray:
         """Angle each joint has covered until t, back and forth added, (N, nq)."""
         return self._cumulative(time, np.abs(np.diff(self.configurations, axis=0)))
 
 
+@checked
 class PosePath(_Track):
     """Poses T_k at index t_k; translation linear and rotation about a fixed axis in between.
 
@@ -97,6 +102,7 @@ class PosePath(_Track):
         self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
 
+    @checked
     def at(self, time: np.ndarray) -> np.ndarray:
         """T(t) for times (N,), upper parts (N, 3, 4)."""
         k, fraction = self._locate(time)
@@ -104,12 +110,14 @@ class PosePath(_Track):
         translation = self.translation[k] + fraction[:, None] * self._step[k]
         return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
 
+    @checked
     def travel(self, time: np.ndarray) -> np.ndarray:
         """Distance covered [m] and angle turned [rad] until t, (N, 2)."""
         steps = [np.linalg.norm(part[:-1], axis=1) for part in (self._step, self._turn)]
         return self._cumulative(time, np.column_stack(steps))
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingShape:
     """A shape, given in its own frame, whose frame follows a path."""
@@ -123,6 +131,7 @@ class MovingShape:
             raise InputError("MovingShape", "shape", self.shape, expected)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingArm:
     """An arm on a base at ``placement`` that replays a joint path."""

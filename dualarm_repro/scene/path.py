@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from .moving import JointPath
 from .quantities import positive
 
 
+@checked
 def densify(
     path: ArrayLike, max_step: float, index: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from .boxes import excess, shortest_exit
@@ -71,6 +72,7 @@ def to_hull(points, polytope, distance, gradient):
         gradient[k, 0], gradient[k, 1], gradient[k, 2] = scaled(-1.0, inward)
 
 
+@checked
 def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndarray, np.ndarray]:
     """d_m(p) and its gradient for every point and shape.
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
 from ..arms.sliding import SlidingChain, sliding_frames
@@ -24,6 +25,7 @@ class Links(NamedTuple):
     radius: np.ndarray
 
 
+@checked
 @lru_cache(maxsize=64)
 def links_of(arm: Arm) -> Links:
     """Capsules of ``arm.geometry``."""

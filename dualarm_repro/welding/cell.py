@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
@@ -16,6 +17,7 @@ ROBOTS = ("carrier 1", "carrier 2", "welder")
 WELDER = 2
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Cell:
     """Everything about the job except where it takes place.
@@ -101,6 +103,7 @@ class Cell:
         """Number of seam points N."""
         return len(self.rotations)
 
+    @checked
     def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper joint limits of a robot (6,) [rad]."""
         return self.arms[robot].limits(self.joint_limits)
@@ -114,10 +117,12 @@ class Cell:
         """From each flange to its reference point, in world axes (3, N, 3) [m]."""
         return self.references - self.flanges[..., :3, 3]
 
+    @checked
     def seam_in_world(self, centre: np.ndarray) -> np.ndarray:
         """p_w = C + R(theta) p_c at each seam point (N, 3) [m]."""
         return centre + np.einsum("nij,nj->ni", self.rotations, self.seam)
 
+    @checked
     def piece_pose(self, centre: np.ndarray) -> np.ndarray:
         """^w_c T = [R(theta), C; 0, 1] at each seam point (N, 4, 4) [m]."""
         return homogeneous(self.rotations, centre)

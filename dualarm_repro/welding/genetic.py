@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.distance import pdist
 
+from ..arguments import checked
 from ..errors import InputError, UnknownNameError
 
 Fitness = Callable[[np.ndarray], np.ndarray]
@@ -25,6 +26,7 @@ _REDRAWS = 10
 _SMALLEST_STEP = 1e-6
 
 
+@checked
 @dataclass(frozen=True)
 class GeneticSettings:
     """Settings of a run.
@@ -218,6 +220,7 @@ def reproduce(search: Search) -> None:
 LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, select, reproduce)
 
 
+@checked
 def evolve(
     fitness: Fitness,
     box: np.ndarray,

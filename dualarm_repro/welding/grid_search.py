@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from .genetic import Fitness, checked_box
 
 _SHRINK = 0.5
@@ -95,6 +96,7 @@ def refined(
     return best._replace(evaluations=sum(end.evaluations for end in ends))
 
 
+@checked
 def grid_optimum(
     fitness: Fitness,
     box: np.ndarray,

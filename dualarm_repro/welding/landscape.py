@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms.wrist_ik import inverse_kinematics
 from ..errors import UnknownNameError
 from .branches import Status
@@ -36,6 +37,7 @@ class Survey(NamedTuple):
     status: np.ndarray
 
 
+@checked
 def survey(placement: Placement, box: np.ndarray, spacing: float) -> Survey:
     """Fitness and constraints on the :func:`.grid_search.grid_points` of the region."""
     points, rated = grid_points(box, spacing), []
@@ -71,6 +73,7 @@ def reaches_point(cell: Cell, centres: np.ndarray, point: int) -> np.ndarray:
     return reached
 
 
+@checked
 def extreme_position(
     placement: Placement,
     box: np.ndarray,

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms import Arm
 from ..arms.wrist_geometry import wrist_geometry
 from ..errors import UnknownNameError
@@ -14,6 +15,7 @@ from ..kernel import kernel
 PAIR_MEASURES = ("product", "geometric_mean")
 
 
+@checked
 def closed_form(arm: Arm, q: np.ndarray) -> np.ndarray:
     """w = |det J| = l_2 l_3 |sin phi| |x_w| |sin q_5'| of six joints with a spherical wrist.
 

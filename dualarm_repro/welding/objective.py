@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError, UnknownNameError
 from .cell import Cell
 from .ellipsoid import coupled_pair_volume, ellipsoid_volume, gram_matrices
@@ -35,6 +36,7 @@ class Measures(NamedTuple):
     beta_loose: np.ndarray
 
 
+@checked
 @dataclass(frozen=True)
 class Objective:
     """One reading of the measure; the fields are explained by :data:`CHOICES`.
@@ -69,6 +71,7 @@ class Objective:
         """Whether the weights are taken from ellipsoids."""
         return self.weights == "inverse_volume"
 
+    @checked
     def measures(self, w: np.ndarray, inverse: np.ndarray | None) -> Measures:
         """Measures along the seam.
 
@@ -100,6 +103,7 @@ class Objective:
                 )
         return Measures(tight, loose, weighted_measure(tight, loose, *beta), *beta)
 
+    @checked
     def aggregate(self, values: np.ndarray) -> np.ndarray:
         """Mean or minimum over the last axis."""
         return values.mean(axis=-1) if self.aggregation == "mean" else values.min(axis=-1)
@@ -119,6 +123,7 @@ def cell_grams(cell: Cell, q: np.ndarray, rows: int) -> np.ndarray:
     return np.stack(grams)
 
 
+@checked
 def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.ndarray:
     """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
 

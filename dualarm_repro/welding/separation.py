@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
+from ..arguments import checked
 from ..scene.bodies import Bodies, Body, PlacedArm, collect
 from ..scene.clearance import blocks
 from ..scene.pair_kernels import capsules_capsules, capsules_planes
@@ -33,6 +34,7 @@ EXEMPTIONS = {
 }
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Separation:
     """The watched pairs of a cell.
@@ -64,12 +66,14 @@ class Separation:
         """Both owners of every pair, the torch apart from the welder."""
         return [(_owner(a), _owner(b)) for a, b in self.pairs.bodies]
 
+    @checked
     def cores(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Cores of all capsules in the world, (P, 3, N, 6) and (P, 3) -> (P N, C, 2, 3) [m]."""
         postures = np.moveaxis(q, 1, 2).reshape(-1, *q.shape[1::2])
         turns = np.tile(self.cell.rotations, (len(q), 1, 1))
         return self.posed(postures, turns, np.repeat(centres, self.cell.count, axis=0))
 
+    @checked
     def posed(self, q: np.ndarray, rotations: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Cores (M, C, 2, 3) [m] of single postures: (M, 3, 6), (M, 3, 3) and (M, 3)."""
         cell, start = self.cell, 0
@@ -85,6 +89,7 @@ class Separation:
         ends[:, start:] = centres[:, np.newaxis, np.newaxis] + turned
         return ends
 
+    @checked
     def distances(self, ends: np.ndarray) -> np.ndarray:
         """Signed distance of every pair in the order of ``pairs``, (M, C, 2, 3) -> (M, K) [m]."""
         bodies, rows = self.bodies, self.pairs.rows
@@ -94,6 +99,7 @@ class Separation:
         capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
         return distance
 
+    @checked
     def smallest(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
         out, rows = np.empty(len(centres)), self.pairs.rows
@@ -105,6 +111,7 @@ class Separation:
             )
         return out
 
+    @checked
     def per_pair(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Smallest signed distance of every pair along the seam.
 

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, Scene, densify, distances
 from ...scene.certificate import Bracket, certified_minimum
@@ -52,6 +53,7 @@ class LinkClearance:
         )
 
 
+@checked
 def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float) -> LinkClearance:
     """Distances along the motion of the arms in ``paths``, from the first index to the last of any.
 
@@ -74,6 +76,7 @@ def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float
     return LinkClearance(moving.pairs.names, index, q, distances(moving, q, index))
 
 
+@checked
 def certified_clearance(
     scene: Scene, paths: Mapping[str, JointPath], tolerance: float = 1e-3
 ) -> Bracket:
@@ -82,6 +85,7 @@ def certified_clearance(
     return certified_minimum(moving, q, index, tolerance)
 
 
+@checked
 def require_links_clear(scene: Scene, q: Mapping[str, ArrayLike], field: str = "start") -> None:
     """Raise if two watched bodies touch, with the arms at ``q`` and without all other arms.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ..field.field_kernels import evaluate, field_of, gradient, workspace
@@ -54,6 +55,7 @@ class Batch:
         return np.array([reason is StopReason.REACHED for reason in self.reason])
 
 
+@checked
 def plan_batch(
     placed: PlacedArm,
     starts: ArrayLike,
@@ -116,6 +118,7 @@ def _run_all(field, rules, switch_rules, starts, rows, last, numbers, measures):
         measures[n, 1] = np.sqrt((work.gradient * work.gradient).sum())
 
 
+@checked
 def perturbed(
     start: ArrayLike, half_width: float, count: int, rng: np.random.Generator
 ) -> np.ndarray:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arguments import checked
 from ...differences import central_differences
 from .problem import PlanningProblem
 
@@ -41,6 +42,7 @@ class Certificate:
     position_error: float
 
 
+@checked
 def certify(made: PlanningProblem, q: np.ndarray, step: int) -> Certificate:
     """Gradient and curvature of U_att + U_rep at ``q``, with the obstacles of ``step``."""
     gradient = made.field.gradient(q, step)

@@ -23,6 +23,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar, overload
 import numpy as np
 from pydantic import Field
 
+from ...arguments import checked
 from ...arms import Arm
 from ...datafiles import StrictModel
 from ...errors import DataFileError, InputError
@@ -123,11 +124,13 @@ class TaskSet(Generic[_Settings_co]):
         return self.parked | {name: task.goal for name, task in self.tasks.items()}
 
 
+@checked
 @overload
 def load_tasks(path: str | Path) -> TaskSet[APFSettings]:
     """With settings of the potential field planners."""
 
 
+@checked
 @overload
 def load_tasks(
     path: str | Path,
@@ -138,6 +141,7 @@ def load_tasks(
     """With settings of that kind."""
 
 
+@checked
 def load_tasks(
     path: str | Path,
     kind: type[Settings] = APFSettings,
