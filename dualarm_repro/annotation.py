@@ -110,7 +110,11 @@ def _scalar(kind: Any, marks: tuple[Any, ...]) -> Requirement:
         return Requirement("a path", _path)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return _choice(tuple(kind), kind)
-    if isinstance(kind, type) and kind not in (object, Any) and not getattr(kind, "_is_protocol", False):
+    if (
+        isinstance(kind, type)
+        and kind not in (object, Any)
+        and not getattr(kind, "_is_protocol", False)
+    ):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         return _instance((kind,), f"{article} {kind.__name__}")
     return Requirement("anything", lambda value, _: value)
@@ -159,7 +163,7 @@ def _number(kind: type, marks: tuple[Any, ...]) -> Requirement:
     expected = ", ".join(words)
 
     def accept(value: Any, _: dict[str, int]) -> Any:
-        if type(value) is kind and not bounds and OPEN not in marks and math.isfinite(value):
+        if type(value) is float and kind is float and not bounds and math.isfinite(value):
             return value  # the usual case, at little cost
         if not isinstance(value, wanted) or isinstance(value, bool | np.bool_):
             raise _Wrong(value, expected)
@@ -167,6 +171,8 @@ def _number(kind: type, marks: tuple[Any, ...]) -> Requirement:
             size = float(value)
         except OverflowError:
             raise _Wrong(value, expected) from None
+        if kind is int and abs(value) >= _MACHINE:
+            raise _Wrong(value, expected)
         if not (OPEN in marks or math.isfinite(size)):
             raise _Wrong(value, expected)
         if not all(_BOUNDS[sign][1](size, bound) for sign, bound in bounds):
@@ -176,6 +182,7 @@ def _number(kind: type, marks: tuple[Any, ...]) -> Requirement:
     return Requirement(expected, accept)
 
 
+_MACHINE = 2**63  # whole numbers from here on are none of the machine
 _BOUNDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "gt": ("above", operator.gt),
     "ge": ("at least", operator.ge),
@@ -202,9 +209,11 @@ def _array(convert: bool, marks: tuple[Any, ...]) -> Requirement:
             raise _Wrong(array.shape, expected, " (its shape)")
         if array.dtype.kind == "f" and OPEN not in marks and not np.isfinite(array).all():
             raise _Wrong(float(array[~np.isfinite(array)].flat[0]), expected)
-        if array.dtype.kind == "f" and array.dtype != float:
-            array = array.astype(float)
-        return array if convert else value
+        if not convert or MASK in marks:
+            return value if not convert else array
+        # One type for the kernels: another would be compiled anew, for seconds.
+        usual = array.dtype == float and array.flags.c_contiguous and array.flags.writeable
+        return array if usual and type(array) is np.ndarray else np.array(array, float, order="C")
 
     return Requirement(expected, accept)
 

@@ -25,6 +25,7 @@ __all__ = [
     "OPEN",
     "Count",
     "NonNegative",
+    "Number",
     "Positive",
     "Rows3",
     "Shape",
@@ -37,6 +38,8 @@ MOST = 10_000_000
 
 NonNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1, le=MOST)]
+#: As many, or none.
+Number = Annotated[int, Field(ge=0, le=MOST)]
 #: Vectors (N, 3), and one (3,).
 Rows3 = Annotated[np.ndarray, Shape("N", 3)]
 Vector3 = Annotated[np.ndarray, Shape(3)]

@@ -12,7 +12,7 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from ..errors import UnsupportedArmError
+from ..errors import ConfigurationError, UnsupportedArmError
 from . import dh, kernels, sliding
 from .capsules import capsule_geometry
 from .chain import chain_of
@@ -25,6 +25,7 @@ from .poses import check_poses
 from .robot_file import DHRobot
 from .shapes import Shapes
 from .sliding import SlidingChain
+from .trigonometry import FAR
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
 
@@ -361,6 +362,9 @@ class Arm(JointSpace):
         near = np.where(self.turns_for_ever, 0.0, 0.5 * np.add(*self.usual_range))
         if reference is not None:
             near = self.configurations(reference)
+            if near.ndim != 1 or not (np.abs(near) < FAR).all():
+                expected = f"{self.nq} angles below {FAR:g} [rad]"
+                raise ConfigurationError(f"arm {self.name}", "reference", near, expected)
         return inverse_kinematics(geometry, poses, near, *self.limits(within_limits))
 
     def _dh_robot(self, wanted: str) -> DHRobot:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import Number, checked
 from .joint_type import JointType
 from .poses import check_configurations
 
@@ -66,7 +66,7 @@ class JointSpace:
         return bool(every) if q.ndim == 1 else every
 
     @checked
-    def random_configurations(self, n: int, rng: np.random.Generator) -> np.ndarray:
+    def random_configurations(self, n: Number, rng: np.random.Generator) -> np.ndarray:
         """``n`` configurations, uniform within :attr:`usual_range`, (n, nq) [rad, m]."""
         lower, upper = self.usual_range
         q = rng.random((n, self.nq))

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import Positive, Shape, checked
 from ..errors import InputError
 from ..kernel import kernel
 from ..settings import choice, code
+
+#: Vectors, one per arm.
+Rows = Annotated[ArrayLike, Shape("A", 3)]
+Turns = Annotated[ArrayLike, Shape("A")]
 
 
 class TimeLaw(StrEnum):
@@ -92,7 +96,12 @@ class Circles:
     @classmethod
     @checked
     def through(
-        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing: Any
+        cls,
+        tips: Rows,
+        normals: Rows,
+        angles: Annotated[ArrayLike, Shape("A")],
+        radius: Positive,
+        **timing: Any,
     ) -> Circles:
         """Circles that start at ``tips``, in planes normal to ``normals``.
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arguments import checked
+from ..arguments import Positive, checked
 
 #: Tip error up to which a path counts as followed [m]; ten times the repeatability of small arms.
 FOLLOWED = 1e-3
@@ -130,7 +130,7 @@ class Motion:
         return float(0.5 * self.dt * np.sum(self.x**2))
 
     @checked
-    def drift(self, period: float) -> np.ndarray:
+    def drift(self, period: Positive) -> np.ndarray:
         """max_i |q_i(k T) - q_i(0)| after each full period (k,) [rad]."""
         every = round(period / self.dt)
         return np.abs(self.q[every::every] - self.q[0]).max(axis=1)

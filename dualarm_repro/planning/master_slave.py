@@ -13,7 +13,7 @@ from typing import Generic, Literal, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import NonNegative, Positive, checked
 from ..errors import InputError, UnknownNameError
 from ..scene import JointPath, PlacedArm, Scene
 from ..settings import Settings
@@ -90,7 +90,7 @@ class CoordinatedPlan(Generic[_Plan_co]):
         return np.arange(1.0 + max(np.ceil(path.index[-1]) for path in self.paths.values()))
 
     @checked
-    def links(self, max_step: float) -> LinkClearance:
+    def links(self, max_step: Positive) -> LinkClearance:
         """Distances of whole links, see :func:`.link_clearance.link_clearance`."""
         return link_clearance(self.scene, self.paths, max_step)
 
@@ -101,7 +101,7 @@ def plan_master_slave(
     tasks: Mapping[str, Task[APFSettings]],
     *,
     master_points: MasterPoints = "joint_points",
-    radius: float | None = None,
+    radius: NonNegative | None = None,
     leave_out: Collection[str] = (),
     planner: Planner = plan_apf_compiled,
 ) -> CoordinatedPlan[Plan]:
@@ -145,7 +145,7 @@ def plan_master_slave(
 
 
 @checked
-def at_tool_speed(step: float) -> Callable[[Plan], np.ndarray]:
+def at_tool_speed(step: Positive) -> Callable[[Plan], np.ndarray]:
     """Index of a plan at which its flange advances ``step`` [m] per step of the later arms.
 
     A piece of path on which the flange rests takes a thousandth of a step.

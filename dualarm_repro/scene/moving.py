@@ -8,18 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from ..arguments import checked
+from ..arguments import Shape, checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
 from .quantities import array_of, finite_pose
 from .shapes import Box, Capsule, Sphere
+
+#: Times (N,).
+Times = Annotated[np.ndarray, Shape("N")]
 
 
 class _Track:
@@ -66,7 +70,7 @@ class JointPath(_Track):
         super().__init__("JointPath", len(self.configurations), index)
 
     @checked
-    def at(self, time: np.ndarray) -> np.ndarray:
+    def at(self, time: Times) -> np.ndarray:
         """q(t) for times (N,), (N, nq)."""
         k, fraction = self._locate(time)
         after = np.minimum(k + 1, len(self.configurations) - 1)
@@ -74,7 +78,7 @@ class JointPath(_Track):
         return start + fraction[:, None] * (self.configurations[after] - start)
 
     @checked
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    def travel(self, time: Times) -> np.ndarray:
         """Angle each joint has covered until t, back and forth added, (N, nq)."""
         return self._cumulative(time, np.abs(np.diff(self.configurations, axis=0)))
 
@@ -103,7 +107,7 @@ class PosePath(_Track):
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
 
     @checked
-    def at(self, time: np.ndarray) -> np.ndarray:
+    def at(self, time: Times) -> np.ndarray:
         """T(t) for times (N,), upper parts (N, 3, 4)."""
         k, fraction = self._locate(time)
         turned = Rotation.from_rotvec(fraction[:, None] * self._turn[k]).as_matrix()
@@ -111,7 +115,7 @@ class PosePath(_Track):
         return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
 
     @checked
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    def travel(self, time: Times) -> np.ndarray:
         """Distance covered [m] and angle turned [rad] until t, (N, 2)."""
         steps = [np.linalg.norm(part[:-1], axis=1) for part in (self._step, self._turn)]
         return self._cumulative(time, np.column_stack(steps))

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
-from ..arguments import checked
+from ..arguments import Vector3, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
@@ -15,6 +17,8 @@ from ..errors import InputError
 
 ROBOTS = ("carrier 1", "carrier 2", "welder")
 WELDER = 2
+#: Index among :data:`ROBOTS`.
+Robot = Annotated[int, Field(ge=0, le=2)]
 
 
 @checked
@@ -104,7 +108,7 @@ class Cell:
         return len(self.rotations)
 
     @checked
-    def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
+    def limits(self, robot: Robot) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper joint limits of a robot (6,) [rad]."""
         return self.arms[robot].limits(self.joint_limits)
 
@@ -118,11 +122,11 @@ class Cell:
         return self.references - self.flanges[..., :3, 3]
 
     @checked
-    def seam_in_world(self, centre: np.ndarray) -> np.ndarray:
+    def seam_in_world(self, centre: Vector3) -> np.ndarray:
         """p_w = C + R(theta) p_c at each seam point (N, 3) [m]."""
         return centre + np.einsum("nij,nj->ni", self.rotations, self.seam)
 
     @checked
-    def piece_pose(self, centre: np.ndarray) -> np.ndarray:
+    def piece_pose(self, centre: Vector3) -> np.ndarray:
         """^w_c T = [R(theta), C; 0, 1] at each seam point (N, 4, 4) [m]."""
         return homogeneous(self.rotations, centre)

@@ -8,12 +8,12 @@ import pinocchio as pin
 from ..arguments import checked
 from ..arms import Arm
 from ..differences import central_differences
-from .cell import ROBOTS, WELDER, Cell
+from .cell import ROBOTS, WELDER, Cell, Robot
 from .placement import Jobs
 
 
 @checked
-def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+def flange_poses(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Poses of a flange in the world along the first job (N, 4, 4) [m]."""
     return cell.bases[robot] @ cell.arms[robot].fk(jobs.q[0, robot])
 
@@ -27,14 +27,14 @@ def torch_tips(cell: Cell, jobs: Jobs) -> np.ndarray:
 
 
 @checked
-def held_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+def held_poses(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Pose of the workpiece (N, 4, 4) that the joint path of a carrier and its grasp give [m]."""
     local = cell.flanges[robot][0].copy()
     local[:3] = cell.rotations[0].T @ local[:3]
     return flange_poses(cell, jobs, robot) @ np.linalg.inv(local)
 
 
-def stretch(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+def stretch(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Distance of a wrist from its shoulder along the first job, over the largest there is (N,)."""
     geometry = cell.geometries[robot]
     joints = np.array([cell.arms[robot].joint_positions(q) for q in jobs.q[0, robot]])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
-from ..arguments import checked
+from ..arguments import OPEN, Shape, checked
 from ..errors import InputError, UnknownNameError
 from .cell import Cell
 from .ellipsoid import coupled_pair_volume, ellipsoid_volume, gram_matrices
@@ -72,7 +72,11 @@ class Objective:
         return self.weights == "inverse_volume"
 
     @checked
-    def measures(self, w: np.ndarray, inverse: np.ndarray | None) -> Measures:
+    def measures(
+        self,
+        w: Annotated[np.ndarray, OPEN, Shape(..., 3, "N")],
+        inverse: Annotated[np.ndarray, OPEN, Shape(..., 2, "N")] | None,
+    ) -> Measures:
         """Measures along the seam.
 
         Parameters
@@ -104,7 +108,7 @@ class Objective:
         return Measures(tight, loose, weighted_measure(tight, loose, *beta), *beta)
 
     @checked
-    def aggregate(self, values: np.ndarray) -> np.ndarray:
+    def aggregate(self, values: Annotated[np.ndarray, OPEN, Shape(..., "N")]) -> np.ndarray:
         """Mean or minimum over the last axis."""
         return values.mean(axis=-1) if self.aggregation == "mean" else values.min(axis=-1)
 
@@ -124,7 +128,12 @@ def cell_grams(cell: Cell, q: np.ndarray, rows: int) -> np.ndarray:
 
 
 @checked
-def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.ndarray:
+def inverse_volumes(
+    cell: Cell,
+    q: Annotated[np.ndarray, OPEN, Shape("P", 3, "N", 6)],
+    space: Literal["translational", "full"],
+    carriers: Literal["mean", "sum", "coupled_pair"],
+) -> np.ndarray:
     """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
 
     The carriers' two inverse volumes are merged by ``carriers``: their mean, their sum, or the

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import MASK, checked
 from ..errors import InputError
 from ..scene.clearance import blocks as rows_of
 from .branches import Status, follow
@@ -54,7 +55,7 @@ class Jobs:
         return self.status == Status.FEASIBLE
 
     @checked
-    def select(self, mask: np.ndarray) -> Jobs:
+    def select(self, mask: Annotated[np.ndarray, MASK]) -> Jobs:
         """The jobs where the mask (P,) is true."""
         return Jobs(**{name: values[mask] for name, values in vars(self).items()})
 

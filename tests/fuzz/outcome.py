@@ -10,7 +10,7 @@ import numpy as np
 from dualarm_repro.errors import DualArmError
 
 #: Longest processor time of a call [s], and longest line of an error.
-PATIENCE, LINE = 10.0, 4000
+PATIENCE, LINE = 10.0, 6000
 
 
 class Hang(BaseException):

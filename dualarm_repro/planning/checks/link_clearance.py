@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from ...arguments import checked
+from ...arguments import Positive, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, Scene, densify, distances
 from ...scene.certificate import Bracket, certified_minimum
@@ -54,7 +54,9 @@ class LinkClearance:
 
 
 @checked
-def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float) -> LinkClearance:
+def link_clearance(
+    scene: Scene, paths: Mapping[str, JointPath], max_step: Positive
+) -> LinkClearance:
     """Distances along the motion of the arms in ``paths``, from the first index to the last of any.
 
     An arm waits at the ends of its path. Arms of the scene without a path are left out.
@@ -78,7 +80,7 @@ def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float
 
 @checked
 def certified_clearance(
-    scene: Scene, paths: Mapping[str, JointPath], tolerance: float = 1e-3
+    scene: Scene, paths: Mapping[str, JointPath], tolerance: Positive = 1e-3
 ) -> Bracket:
     """Bounds on the smallest distance of the same motion that hold between the looks too."""
     moving, q, index = _motion(scene, paths)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arguments import checked
+from ...arguments import Number, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, PlacedArm, Scene
 from ...scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
@@ -46,12 +46,12 @@ class Obstacles:
     planes: np.ndarray
 
     @checked
-    def at(self, step: int) -> int:
+    def at(self, step: Number) -> int:
         """Row of the arrays that holds at a step."""
         return min(step, len(self.cores) - 1)
 
     @checked
-    def moving(self, step: int) -> bool:
+    def moving(self, step: Number) -> bool:
         """Whether some shape is yet to move."""
         return step < len(self.cores) - 1
 
@@ -77,7 +77,7 @@ class Obstacles:
 
     @checked
     def distances(
-        self, ends: np.ndarray, radius: np.ndarray, step: int
+        self, ends: np.ndarray, radius: np.ndarray, step: Number
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """d, the nearest point of each control point, and grad d there.
 

@@ -11,7 +11,7 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from ...arguments import checked
+from ...arguments import Number, checked
 from ...scene.bodies import PlacedArm
 from ...scene.posing import cores_in
 from ..settings import Combination
@@ -22,10 +22,10 @@ from .obstacles import Obstacles
 class Potential(Protocol):
     """U(q) at a step of the plan, to which moving obstacles have moved."""
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U for (nq,) -> float or for (N, nq) -> (N,)."""
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,) for one configuration (nq,)."""
 
 
@@ -49,12 +49,12 @@ class PositionAttraction:
     gain: float
 
     @checked
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
         return 0.5 * self.gain * np.sum((end_effector(self.placed, q) - self.target) ** 2, axis=-1)
 
     @checked
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         J = self.placed.placement.rotation @ self.placed.arm.jacobian(q)[:3]
         return self.gain * J.T @ (end_effector(self.placed, q) - self.target)
@@ -80,12 +80,12 @@ class JointAttraction:
     gain: float
 
     @checked
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
         return 0.5 * self.gain * np.sum((q - self.target) ** 2, axis=-1)
 
     @checked
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         return self.gain * (q - self.target)
 
@@ -120,23 +120,23 @@ class PointRepulsion:
     combination: Combination
 
     @checked
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U."""
         return self.terms(q, step).sum(axis=-1)
 
     @checked
-    def terms(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def terms(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """Share of each control point in U, (K,) or (N, K)."""
         return self._shares(q, step).sum(axis=-1)
 
     @checked
-    def acting(self, q: np.ndarray, step: int = 0) -> tuple[str, ...]:
+    def acting(self, q: np.ndarray, step: Number = 0) -> tuple[str, ...]:
         """Names of the shapes that repel at one configuration."""
         acting = np.flatnonzero(self._shares(q, step).any(axis=0))
         return tuple(self.obstacles.names[m] for m in acting)
 
     @checked
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
         frames = frames_of(self.placed, q[np.newaxis])
         ends = cores_in(frames, self.points.joint, self.points.local)
@@ -149,7 +149,7 @@ class PointRepulsion:
         return np.einsum("km,kmr,kmjr,kj->j", slope, outward, velocity, carried)
 
     @checked
-    def distances(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def distances(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """d_im, (K, M) or (N, K, M) [m]."""
         ends = ends_of(self.placed, self.points, np.atleast_2d(q))
         distance = self.obstacles.distances(ends, self.points.radius, step)[0]
@@ -191,11 +191,11 @@ class Sum(Generic[Parts]):
     parts: Parts
 
     @checked
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U."""
         return sum(part.value(q, step) for part in self.parts)
 
     @checked
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         return sum((part.gradient(q, step) for part in self.parts), np.zeros_like(q))

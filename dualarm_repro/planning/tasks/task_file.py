@@ -124,13 +124,11 @@ class TaskSet(Generic[_Settings_co]):
         return self.parked | {name: task.goal for name, task in self.tasks.items()}
 
 
-@checked
 @overload
 def load_tasks(path: str | Path) -> TaskSet[APFSettings]:
     """With settings of the potential field planners."""
 
 
-@checked
 @overload
 def load_tasks(
     path: str | Path,
