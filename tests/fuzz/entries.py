@@ -11,8 +11,19 @@ from valid import BY_NAME, INSTANCES, VALID, made
 ROOMS = ("arms", "scene", "planning", "control", "welding")
 #: What a method returns and nobody builds: the fields are those of the method that made it.
 RECORDS = {
-    *("planning.Batch", "planning.Certificate", "planning.CoordinatedPlan", "planning.LinkClearance"),
-    *("planning.Plan", "planning.TaskSet", "planning.Truth", "planning.Method", "planning.Obstacles"),
+    *(
+        "planning.Batch",
+        "planning.Certificate",
+        "planning.CoordinatedPlan",
+        "planning.LinkClearance",
+    ),
+    *(
+        "planning.Plan",
+        "planning.TaskSet",
+        "planning.Truth",
+        "planning.Method",
+        "planning.Obstacles",
+    ),
     *("control.Motion", "control.Solution", "scene.Clearance", "arms.Occupancy", "arms.Arm"),
     *("welding.Evolution", "welding.Jobs", "welding.Seam", "welding.Trace"),
 }
@@ -65,7 +76,9 @@ def _of(name, thing):
         if issubclass(thing, enum.Enum) or getattr(thing, "_is_protocol", False):
             return []
         by_hand = not (issubclass(thing, BaseModel) or hasattr(thing, "_fields"))
-        return ([Entry(name, thing)] if by_hand and name not in RECORDS else []) + _methods(name, thing)
+        return ([Entry(name, thing)] if by_hand and name not in RECORDS else []) + _methods(
+            name, thing
+        )
     takes_something = callable(thing) and not hasattr(thing, "__args__")
     return [Entry(name, thing)] if takes_something and _parameters(thing) else []
 

@@ -94,13 +94,36 @@ def _array(value, rng):
         case 18:
             return np.zeros_like(numeric)
         case _:
-            return _one((np.ma.array(numeric), numeric.astype(bool), 3, "array", [[1], [1, 2]],
-                         [10**400] * max(made.size, 1), np.array(None), iter([1.0])), rng)
+            return _one(
+                (
+                    np.ma.array(numeric),
+                    numeric.astype(bool),
+                    3,
+                    "array",
+                    [[1], [1, 2]],
+                    [10**400] * max(made.size, 1),
+                    np.array(None),
+                    iter([1.0]),
+                ),
+                rng,
+            )
 
 
 def _path(value, rng):
     here = value.parent
-    return _one((here, here / "missing.yaml", Path("\0"), Path(""), 3, b"x", str(value), here / ("x" * 5000)), rng)
+    return _one(
+        (
+            here,
+            here / "missing.yaml",
+            Path("\0"),
+            Path(""),
+            3,
+            b"x",
+            str(value),
+            here / ("x" * 5000),
+        ),
+        rng,
+    )
 
 
 def _mapping(value, rng):
@@ -121,7 +144,9 @@ def _mapping(value, rng):
 def _sequence(value, rng):
     kind = tuple if isinstance(value, tuple) else list
     if not len(value) or rng.random() < 0.3:
-        return _one((kind(), [None], ["x"], "xyz", 3, iter(value), {1: 2}, kind([*value, *value])), rng)
+        return _one(
+            (kind(), [None], ["x"], "xyz", 3, iter(value), {1: 2}, kind([*value, *value])), rng
+        )
     changed = list(value)
     place = rng.integers(len(changed))
     if rng.random() < 0.25:

@@ -9,14 +9,14 @@ import pinocchio as pin
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "planning"))  # the arrangement of its tests
 
-from window_scene import CENTRE, IMPROVED, window  # noqa: E402
+from window_scene import CENTRE, IMPROVED, window
 
-from dualarm_repro import arms, control, planning, scene, welding  # noqa: E402
-from dualarm_repro.arms import load_arm, load_robot_file  # noqa: E402
-from dualarm_repro.control.frozen import arm_pair  # noqa: E402
+from dualarm_repro import arms, control, planning, scene, welding
+from dualarm_repro.arms import load_arm, load_robot_file
+from dualarm_repro.control.frozen import arm_pair
+from dualarm_repro.datafiles import data_path
 from dualarm_repro.errors import InputError
-from dualarm_repro.datafiles import data_path  # noqa: E402
-from dualarm_repro.planning.descent.problem import problem  # noqa: E402
+from dualarm_repro.planning.descent.problem import problem
 
 Q6 = np.array([0.1, 0.3, -0.4, 0.2, 0.5, -0.3])
 GOAL6 = Q6 + 0.1
@@ -93,7 +93,13 @@ def _program():
 def _circles(**timing):
     tips = made("system").tips(made("q_pair"))
     normals = np.tile([1.0, 0.0, 0.0], (2, 1))
-    return {"tips": tips, "normals": normals, "angles": np.array([0.1, 0.2]), "radius": 0.03, **timing}
+    return {
+        "tips": tips,
+        "normals": normals,
+        "angles": np.array([0.1, 0.2]),
+        "radius": 0.03,
+        **timing,
+    }
 
 
 def _plan():
@@ -270,14 +276,21 @@ VALID = {
     "scene.HalfSpace": lambda: {"normal": np.array([0.0, 0.0, 1.0]), "offset": 0.1},
     "scene.ConvexHull": lambda: {"points": rng().normal(size=(9, 3))},
     "scene.JointPath": lambda: {"configurations": np.array([Q6, GOAL6]), "index": [0.0, 2.0]},
-    "scene.MovingArm": lambda: {"arm": made("arm"), "path": made("path"), "placement": made("pose")},
+    "scene.MovingArm": lambda: {
+        "arm": made("arm"),
+        "path": made("path"),
+        "placement": made("pose"),
+    },
     "scene.MovingShape": lambda: {"shape": made("capsule"), "path": made("pose_path")},
     "scene.PlacedArm": lambda: {
         **{"name": "a", "arm": made("arm"), "placement": made("pose"), "start": Q6, "goal": GOAL6}
     },
     "scene.PosePath": lambda: {"poses": [pin.SE3.Identity(), made("pose")], "index": [0.0, 2.0]},
     "scene.Scene": lambda: {
-        **{"arms": list(made("scene").arms), "obstacles": {"ball": made("shape"), "window": list(window())}},
+        **{
+            "arms": list(made("scene").arms),
+            "obstacles": {"ball": made("shape"), "window": list(window())},
+        },
         **{"moving": {"m": scene.MovingShape(made("capsule"), made("pose_path"))}, "floor": -0.1},
         **{"exempt": [("left", "ball")], "self_collision": True},
     },
@@ -293,7 +306,9 @@ VALID = {
     "scene.densify": lambda: {"path": np.array([Q6, GOAL6]), "max_step": 0.01, "index": [0.0, 1.0]},
     "scene.facing": lambda: {"normal": np.array([1.0, 0.2, 0.0]), "up": np.array([0.0, 0.0, 1.0])},
     "scene.link_frames": lambda: {
-        "chain": made("arm").chain, "base": np.eye(3, 4), "q": Q6[np.newaxis]
+        "chain": made("arm").chain,
+        "base": np.eye(3, 4),
+        "q": Q6[np.newaxis],
     },
     "scene.load_scene": lambda: {"path": folder() / "cell.yaml"},
     "scene.point_distances": lambda: {
@@ -328,13 +343,21 @@ VALID = {
     "planning.Obstacles.at": lambda: {"step": 0},
     "planning.Obstacles.moving": lambda: {"step": 0},
     "planning.Obstacles.with_arm": lambda: {
-        "placed": made("placed"), "points": made("points"), "path": made("path")
+        "placed": made("placed"),
+        "points": made("points"),
+        "path": made("path"),
     },
     "planning.Obstacles.distances": lambda: {
-        "ends": rng().normal(size=(3, 2, 2, 3)), "radius": np.array([0.1, 0.1]), "step": 0
+        "ends": rng().normal(size=(3, 2, 2, 3)),
+        "radius": np.array([0.1, 0.1]),
+        "step": 0,
     },
     "planning.at_tool_speed": lambda: {"step": 0.01},
-    "planning.certified_clearance": lambda: {"scene": made("scene"), "paths": _both(), "tolerance": 0.01},
+    "planning.certified_clearance": lambda: {
+        "scene": made("scene"),
+        "paths": _both(),
+        "tolerance": 0.01,
+    },
     "planning.certify": lambda: {"made": made("planning_problem"), "q": Q6, "step": 0},
     "planning.control_points": lambda: {
         **{"arm": made("arm"), "choice": (3, 5), "weights": [1.0, 0.5], "radius": 0.1}
@@ -364,7 +387,11 @@ VALID = {
         **{"source": "x", "scene": made("alone"), "starts": {"arm": Q6}, "goals": {"arm": GOAL6}}
     },
     "planning.truth": lambda: {"scene": made("alone"), "paths": {"arm": made("path")}},
-    "control.ArmSystem": lambda: {"arms": list(made("system").arms), "exempt": (), "self_collision": False},
+    "control.ArmSystem": lambda: {
+        "arms": list(made("system").arms),
+        "exempt": (),
+        "self_collision": False,
+    },
     "control.ArmSystem.configuration": lambda: {"q": made("q_pair")},
     "control.ArmSystem.tips": lambda: {"q": made("q_pair")},
     "control.Circles": lambda: {
@@ -414,8 +441,21 @@ VALID = {
     },
     "welding.Cell": lambda: {
         name: getattr(made("cell"), name)
-        for name in ("arms", "bases", "rotations", "flanges", "references", "torch_axis", "seam",
-                     "pipe_axes", "pipe_cores", "pipe_radii", "floor", "threshold", "joint_limits")
+        for name in (
+            "arms",
+            "bases",
+            "rotations",
+            "flanges",
+            "references",
+            "torch_axis",
+            "seam",
+            "pipe_axes",
+            "pipe_cores",
+            "pipe_radii",
+            "floor",
+            "threshold",
+            "joint_limits",
+        )
     },
     "welding.Cell.limits": lambda: {"robot": 1},
     "welding.Cell.seam_in_world": lambda: {"centre": np.ones(3)},
@@ -438,9 +478,7 @@ VALID = {
     "welding.Placement.score": lambda: {"jobs": made("jobs")},
     "welding.Separation": lambda: {"cell": made("cell")},
     **{
-        f"welding.Separation.{name}": lambda: {
-            "q": made("jobs").q, "centres": made("jobs").centres
-        }
+        f"welding.Separation.{name}": lambda: {"q": made("jobs").q, "centres": made("jobs").centres}
         for name in ("cores", "smallest", "per_pair")
     },
     "welding.Separation.posed": lambda: {
@@ -513,7 +551,9 @@ BY_NAME = {
 #: Clearances of scenes take the joints of both arms.
 for _name in ("clearance", "clearance_gradient", "distances"):
     VALID[f"scene.{_name}"] = lambda: {
-        "scene": made("moving_scene"), "q": np.array([[*Q6, *Q6], [*GOAL6, *GOAL6]]), "time": [0.1, 0.2]
+        "scene": made("moving_scene"),
+        "q": np.array([[*Q6, *Q6], [*GOAL6, *GOAL6]]),
+        "time": [0.1, 0.2],
     }
 VALID["scene.Scene.configurations"] = lambda: {"q": np.array([*Q6, *Q6])}
 assert CENTRE
