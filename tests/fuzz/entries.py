@@ -11,6 +11,7 @@ from valid import BY_NAME, INSTANCES, VALID, made
 ROOMS = ("arms", "scene", "planning", "control", "welding")
 #: What a method returns and nobody builds: the fields are those of the method that made it.
 RECORDS = {
+    *("planning.TaskFaults", "arms.Exclusion", "control.NoSolution"),
     *(
         "planning.Batch",
         "planning.Certificate",

@@ -67,14 +67,16 @@ SNIPPETS = (
     ),
     *("2024-01-01T00:00:00+99:99", "9" * 5000, "#", "---\n", "<", ">", "&", "/>", "<!--", "1e999"),
 )
-URDF = """<robot name='r'>
- <link name='base'><collision><geometry><cylinder radius='0.05' length='0.3'/></geometry></collision></link>
- <link name='l1'><visual><geometry><box size='0.1 0.1 0.3'/></geometry></visual></link>
- <link name='l2'><collision><origin xyz='0 0 0.1' rpy='0 0 1'/><geometry><sphere radius='0.05'/></geometry></collision></link>
- <joint name='j1' type='revolute'><parent link='base'/><child link='l1'/>
-  <origin xyz='0 0 0.3' rpy='0.1 0.2 0.3'/><axis xyz='0 0 1'/><limit lower='-2.5' upper='2.5' effort='10' velocity='2'/></joint>
- <joint name='j2' type='continuous'><parent link='l1'/><child link='l2'/>
-  <origin xyz='0 0 0.3'/><axis xyz='0 1 0'/><limit effort='10' velocity='2'/></joint>
+LIMIT = "<limit lower='-2.5' upper='2.5' effort='10' velocity='2'/>"
+URDF = f"""<robot name='r'>
+<link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+<link name='l1'><visual><geometry><box size='0.1 0.1 0.3'/></geometry></visual></link>
+<link name='l2'><collision><origin xyz='0 0 0.1' rpy='0 0 1'/>
+ <geometry><cylinder radius='0.05' length='0.3'/></geometry></collision></link>
+<joint name='j1' type='revolute'><parent link='base'/><child link='l1'/>
+ <origin xyz='0 0 0.3' rpy='0.1 0.2 0.3'/><axis xyz='0 0 1'/>{LIMIT}</joint>
+<joint name='j2' type='continuous'><parent link='l1'/><child link='l2'/>
+ <origin xyz='0 0 0.3'/><axis xyz='0 1 0'/><limit effort='10' velocity='2'/></joint>
 </robot>
 """
 

@@ -56,8 +56,8 @@ def holds_nan(value, depth=4):
 def judged(call, nan_given=False, nan_allowed=False):
     """``("refused" | "answered", "")``, or ``("defect", what)``.
 
-    A value for a NaN that was given is as wrong as a NaN for finite numbers, unless the documentation
-    of the call says otherwise (``nan_allowed``).
+    A value for a NaN that was given is as wrong as a NaN for finite numbers, unless NaN has a
+    meaning in the answers of that call (``nan_allowed``).
     """
     try:
         with patience():
