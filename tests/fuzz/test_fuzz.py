@@ -1,4 +1,4 @@
-"""Hostile input with fixed seeds: what is wrong is refused in one line, and nothing else happens."""
+"""Hostile input with fixed seeds: what is wrong is refused in one line, nothing else happens."""
 
 import math
 import resource
