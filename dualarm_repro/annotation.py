@@ -72,6 +72,20 @@ class Requirement:
             raise kind(source, inner or field, wrong.value, wrong.expected) from None
 
 
+def real_array(value: Any) -> np.ndarray:
+    """Numbers as an array of float64; text, truth values, dates and masked values are none.
+
+    Raises
+    ------
+    TypeError, ValueError
+        They are no real numbers, or of no common shape.
+    """
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu" or isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"numbers, not {array.dtype}")
+    return np.asarray(array, dtype=float)
+
+
 class _Wrong(Exception):
     """A value, or the part of it at ``field``, that does not fit."""
 
@@ -86,6 +100,8 @@ def requirement_of(kind: Any) -> Requirement:
         kind, *found = typing.get_args(kind)
         marks = tuple(found)
     origin, inner = typing.get_origin(kind), typing.get_args(kind)
+    if kind is ArrayLike and not marks:  # whoever takes it makes an array of it, and checks it
+        return Requirement("numbers", lambda value, _: value)
     if kind is ArrayLike or kind is np.ndarray or origin is np.ndarray:
         return _array(kind is not ArrayLike, marks)
     if origin in (typing.Union, types.UnionType):

@@ -54,7 +54,8 @@ def checked(entry: _Entry) -> _Entry:
     """The same function, or class, that refuses arguments which do not fit its annotations.
 
     Of a class these are the arguments of its construction. The annotations are read at the first
-    call. An annotation that is not known at run time is not checked.
+    call. An annotation that is not known at run time is not checked, nor is a plain ``ArrayLike``:
+    who takes it checks it, by :func:`.real_array`.
 
     Raises
     ------

@@ -110,7 +110,6 @@ class JointSpace:
         length = np.linalg.norm(self.difference(start, end), axis=-1)
         return float(length) if length.ndim == 0 else length
 
-    @checked
     def configurations(self, q: ArrayLike) -> np.ndarray:
         """``q`` as a float64 array (nq,) or (N, nq).
 
