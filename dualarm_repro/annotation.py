@@ -21,6 +21,8 @@ from .errors import InputError, UnknownNameError
 
 #: Mark of a number or an array in which NaN or infinity has a meaning.
 OPEN = "may hold NaN or infinity"
+#: Mark of an array that the class itself checks, with an error of its own kind.
+LATER = "checked by the class"
 #: Mark of an array of truth values.
 MASK = "truth values"
 
@@ -100,7 +102,7 @@ def requirement_of(kind: Any) -> Requirement:
         kind, *found = typing.get_args(kind)
         marks = tuple(found)
     origin, inner = typing.get_origin(kind), typing.get_args(kind)
-    if kind is ArrayLike and not marks:  # whoever takes it makes an array of it, and checks it
+    if LATER in marks or (kind is ArrayLike and not marks):  # whoever takes it makes an array of it, and checks it
         return Requirement("numbers", lambda value, _: value)
     if kind is ArrayLike or kind is np.ndarray or origin is np.ndarray:
         return _array(kind is not ArrayLike, marks)

@@ -17,10 +17,11 @@ from typing import Annotated, Any, TypeVar
 import numpy as np
 from pydantic import Field
 
-from .annotation import MASK, OPEN, Requirement, Shape, requirement_of
+from .annotation import LATER, MASK, OPEN, Requirement, Shape, requirement_of
 from .settings import Positive
 
 __all__ = [
+    "LATER",
     "MASK",
     "OPEN",
     "Count",

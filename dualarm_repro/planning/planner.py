@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 from pydantic import Field
 
-from ..arguments import checked
+from ..arguments import LATER, checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -82,8 +82,8 @@ class PathProblem:
     """
 
     scene: Scene
-    start: np.ndarray
-    goal: np.ndarray
+    start: Annotated[np.ndarray, LATER]
+    goal: Annotated[np.ndarray, LATER]
     settings: PlannerSettings = field(default_factory=PlannerSettings)
     evaluations: int = 0
 
