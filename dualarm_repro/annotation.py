@@ -102,7 +102,8 @@ def requirement_of(kind: Any) -> Requirement:
         kind, *found = typing.get_args(kind)
         marks = tuple(found)
     origin, inner = typing.get_origin(kind), typing.get_args(kind)
-    if LATER in marks or (kind is ArrayLike and not marks):  # whoever takes it makes an array of it, and checks it
+    if LATER in marks or (kind is ArrayLike and not marks):
+        # Whoever takes any array-like makes an array of it, and checks that.
         return Requirement("numbers", lambda value, _: value)
     if kind is ArrayLike or kind is np.ndarray or origin is np.ndarray:
         return _array(kind is not ArrayLike, marks)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -131,14 +131,18 @@ def cell_grams(cell: Cell, q: np.ndarray, rows: int) -> np.ndarray:
 def inverse_volumes(
     cell: Cell,
     q: Annotated[np.ndarray, OPEN, Shape("P", 3, "N", 6)],
-    space: Literal["translational", "full"],
-    carriers: Literal["mean", "sum", "coupled_pair"],
+    space: str,
+    carriers: str,
 ) -> np.ndarray:
     """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
 
     The carriers' two inverse volumes are merged by ``carriers``: their mean, their sum, or the
     inverse volume of the coupled pair.
     """
+    for name, value in (("space", space), ("carriers", carriers)):
+        if value not in CHOICES[name]:
+            expected = f"one of {', '.join(CHOICES[name])}"
+            raise UnknownNameError("inverse_volumes", name, value, expected)
     grams = cell_grams(cell, q, ROWS[space])
     first, second, welder = (1.0 / ellipsoid_volume(A) for A in grams)
     match carriers:
