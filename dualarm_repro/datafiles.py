@@ -94,6 +94,41 @@ def _mapping(loader: _Loader, node: yaml.MappingNode, deep: bool = False) -> dic
 _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
 
 
+#: Most values that a file may stand for once its aliases are written out.
+_LARGEST = 1_000_000
+_VALUES = (ValueError, TypeError, KeyError, AttributeError, OverflowError)
+
+
+def _content(text: str) -> Any:
+    """What a YAML text holds; a few lines of aliases of aliases could stand for any amount."""
+    loader = _Loader(text)
+    try:
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        if _written_out(node, {}) > _LARGEST:
+            raise yaml.composer.ComposerError(
+                None, None, f"aliases that stand for more than {_LARGEST} values", node.start_mark
+            )
+        return loader.construct_document(node)
+    finally:
+        loader.dispose()
+
+
+def _written_out(node: yaml.Node, known: dict[int, int]) -> int:
+    """Number of values below a node, those of an alias counted each time."""
+    if (found := known.get(id(node))) is not None:
+        return found
+    known[id(node)] = 1  # an alias within itself, which the construction refuses
+    parts: list[yaml.Node] = []
+    if isinstance(node, yaml.MappingNode):
+        parts = [part for pair in node.value for part in pair]
+    elif isinstance(node, yaml.SequenceNode):
+        parts = node.value
+    known[id(node)] = 1 + sum(_written_out(part, known) for part in parts)
+    return known[id(node)]
+
+
 def read_yaml(path: Path) -> dict[str, Any]:
     """Read a YAML file that holds a mapping.
 
@@ -113,14 +148,18 @@ def parsed_yaml(path: Path, written: bytes) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise DataFileError(path, "file", "not UTF-8 text", "a readable YAML file") from None
     try:
-        content = yaml.load(text, Loader=_Loader)
+        content = _content(text)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else "file"
         problem = getattr(error, "problem", None) or "not YAML"
         raise DataFileError(path, place, problem, "well-formed YAML") from None
-    except (ValueError, TypeError, OverflowError) as error:  # of a number, date, byte or key
-        raise DataFileError(path, "content", str(error), "well-formed YAML") from None
+    except RecursionError:
+        raise DataFileError(path, "nesting", "deeper", "fewer levels of lists") from None
+    except _VALUES as error:
+        # A date of no calendar, a number of thousands of digits, a list as key.
+        problem = f"{type(error).__name__}: {error}"
+        raise DataFileError(path, "a value", problem, "well-formed YAML") from None
     if not isinstance(content, dict):
         raise DataFileError(path, "top level", type(content).__name__, "a mapping of field: value")
     return content

@@ -22,6 +22,8 @@ FLOORS = (
         "datafiles",
         "written",
         "settings",
+        "annotation",
+        "arguments",
         "kernel",
         "differences",
         "instrument",

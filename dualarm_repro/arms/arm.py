@@ -11,7 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from ..errors import UnsupportedArmError
+from ..errors import ConfigurationError, UnsupportedArmError
 from .capsules import capsule_geometry
 from .chain import Chain, SlidingChain, chain_of
 from .codegen.generated import Compiled, nothing
@@ -23,6 +23,7 @@ from .kernels import Kinematics
 from .poses import check_poses
 from .robot_file import DHRobot
 from .shapes import Shapes
+from .trigonometry import FAR
 from .wrist_geometry import WristGeometry, wrist_geometry
 from .wrist_ik import distinct, inverse_kinematics
 
@@ -405,6 +406,9 @@ class Arm(JointSpace):
         near = np.where(self.turns_for_ever, 0.0, 0.5 * np.add(*self.usual_range))
         if reference is not None:
             near = self.configurations(reference)
+            if near.ndim != 1 or not (np.abs(near) < FAR).all():
+                expected = f"{self.nq} angles below {FAR:g} [rad]"
+                raise ConfigurationError(f"arm {self.name}", "reference", near, expected)
         return inverse_kinematics(geometry, poses, near, *self.limits(within_limits))
 
     def _dh_robot(self, wanted: str) -> DHRobot:

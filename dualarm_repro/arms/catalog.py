@@ -9,6 +9,7 @@ from pathlib import Path
 import pinocchio as pin
 from example_robot_data import getModelPath
 
+from ..arguments import checked
 from ..datafiles import data_path
 from ..errors import DataFileError, InputError, UnknownNameError
 from ..input_files import path_of
@@ -26,6 +27,7 @@ def arm_names() -> list[str]:
     return sorted(path.stem for path in data_path("robots").glob("*.yaml"))
 
 
+@checked
 def load_arm(
     name_or_path: str | Path,
     *,

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import BeforeValidator, Field, PlainSerializer, TypeAdapter, model_validator
 
+from ..arguments import checked
 from ..datafiles import StrictModel, Text
 from ..errors import DataFileError
 from ..written import read_written
@@ -201,6 +202,7 @@ _KINDS: dict[str, type[DHRobot | URDFRobot | MirrorRobot]] = {
 }
 
 
+@checked
 def load_robot_file(path: Path) -> RobotFile:
     """Read and check one robot file.
 

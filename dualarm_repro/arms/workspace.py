@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Count, Positive, Rows3, checked
 from ..errors import InputError
 from .arm import Arm
 
@@ -28,7 +29,8 @@ class VoxelVolume(NamedTuple):
     volume: float
 
 
-def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
+@checked
+def sample_workspace(arm: Arm, n: Count, rng: np.random.Generator) -> np.ndarray:
     """Flange positions p(q) for ``n`` configurations uniform within the limits, (n, 3) [m].
 
     Uniform joint angles, not uniform positions: the cloud is dense where many configurations lead.
@@ -36,7 +38,8 @@ def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
     return arm.positions(arm.random_configurations(n, rng))
 
 
-def extents(points: np.ndarray) -> Extents:
+@checked
+def extents(points: Rows3) -> Extents:
     """Extents of a cloud (n, 3) [m]."""
     radius = np.hypot(points[:, 0], points[:, 1])
     distance = np.hypot(radius, points[:, 2])
@@ -48,7 +51,8 @@ def extents(points: np.ndarray) -> Extents:
     )
 
 
-def voxel_volume(points: np.ndarray, cells: Sequence[float]) -> list[VoxelVolume]:
+@checked
+def voxel_volume(points: Rows3, cells: Sequence[Positive]) -> list[VoxelVolume]:
     """V = h^3 * (number of cubes of edge h that hold a point), for several h [m].
 
     The number depends on h as much as on the workspace: small cubes stay empty for want of points,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from .assembly import make_buffers, sense, state
@@ -32,6 +34,7 @@ def control_step(arrays, numbers, q, home, position, velocity, buffers):
     return status, len(program.h), residual(program, x, y, z, w), x
 
 
+@checked
 class VelocityController:
     """min 1/2 |x + lambda (q - q_0)|^2 under task, avoidance rows and joint bounds, step by step.
 
@@ -119,7 +122,10 @@ class VelocityController:
         return self.system.arrays, self._numbers, q, self._home, position, velocity
 
     def _tips(self, name: str, value: ArrayLike) -> np.ndarray:
-        array = np.ascontiguousarray(value, dtype=float)
+        try:
+            array = np.ascontiguousarray(real_array(value))
+        except (TypeError, ValueError):
+            raise InputError("controller", name, value, "finite numbers") from None
         if array.shape != self._buffers.tips.shape:
             raise InputError(
                 "controller", f"shape of {name}", array.shape, str(self._buffers.tips.shape)

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Positive, checked
+
 #: Tip error up to which a path counts as followed [m]; ten times the repeatability of small arms.
 FOLLOWED = 1e-3
 #: Excess over a limit that is left to rounding [rad], [rad/s].
@@ -127,7 +129,8 @@ class Motion:
         """Integral of |x|^2 / 2, which the document calls energy [rad^2/s]."""
         return float(0.5 * self.dt * np.sum(self.x**2))
 
-    def drift(self, period: float) -> np.ndarray:
+    @checked
+    def drift(self, period: Positive) -> np.ndarray:
         """max_i |q_i(k T) - q_i(0)| after each full period (k,) [rad]."""
         every = round(period / self.dt)
         return np.abs(self.q[every::every] - self.q[0]).max(axis=1)

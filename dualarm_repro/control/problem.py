@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import DualArmError, InputError, shorten
 from .parts import ProgramParts, shapes
 
@@ -16,6 +17,7 @@ from .parts import ProgramParts, shapes
 CERTIFIED = 1e-8
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class QuadraticProgram:
     """min 1/2 |x - target|^2  s.t.  A x = b,  G x <= h,  lower <= x <= upper.
@@ -160,6 +162,7 @@ class Solution:
         size = 1.0 + np.abs(np.concatenate([self.y, self.z, self.w])).max()
         return float(np.max([self.primal_residual, self.dual_residual / size, self.gap / size]))
 
+    @checked
     def certified(self, tolerance: float = CERTIFIED) -> bool:
         """Whether the solution satisfies the optimality conditions to ``tolerance``."""
         return self.residual <= tolerance

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import InputError
 from .circle import Circles
 from .closed_loop import DONE, Ending, Run, run_exact
@@ -19,6 +20,7 @@ UNDISTURBED = np.empty((0, 0))
 SLACK_WEIGHT = 1e4
 
 
+@checked
 def simulate(
     system: ArmSystem,
     circles: Circles,
@@ -62,6 +64,7 @@ def simulate(
     return truncated(system, dt, *run_exact(*arguments, readings))
 
 
+@checked
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
     """The settings without inequalities: the minimiser is x = J^+ (dr/dt + K (r - f))."""
     return ControllerSettings(

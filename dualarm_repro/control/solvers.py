@@ -10,6 +10,7 @@ import numpy as np
 import proxsuite
 import qpsolvers
 
+from ..arguments import checked
 from ..errors import UnknownNameError
 from .least_distance import INFEASIBLE, SOLVED, least_distance
 from .problem import CERTIFIED, NoSolution, QuadraticProgram, Solution
@@ -88,6 +89,7 @@ SOLVERS: dict[str, tuple[Callable[[QuadraticProgram], Solution], float]] = {
 }
 
 
+@checked
 def solve(problem: QuadraticProgram, solver: str = "active_set") -> Solution:
     """Solve and certify a problem.
 

@@ -10,6 +10,7 @@ from itertools import product
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms.exclusions import shape_of
 from ..errors import InputError
 from ..scene import JointPath, PlacedArm, Scene, distances
@@ -25,6 +26,7 @@ _SAMPLES = 64
 _TOLERANCE = 1e-3  # [m], of no weight at a single posture
 
 
+@checked
 def require_sound(
     source: object,
     scene: Scene,

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from ..arguments import checked
 from ..arms import Arm
 from ..errors import DualArmError, InputError, UnknownNameError
 from ..scene import JointPath, Scene
@@ -60,6 +61,7 @@ class Method(Generic[_Settings]):
     plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
     whole: bool = False
 
+    @checked
     def planned(self, path: str | Path, allow_collision: bool = False) -> AnyPlan:
         """See :func:`plan_file`."""
         given = load_tasks(path, self.settings, self.default)
@@ -186,6 +188,7 @@ METHODS: dict[str, AnyMethod] = {
 }
 
 
+@checked
 def method(name: str) -> AnyMethod:
     """The method of a name.
 
@@ -199,11 +202,13 @@ def method(name: str) -> AnyMethod:
     return METHODS[name]
 
 
+@checked
 def settings_schema(name: str) -> dict[str, Any]:
     """JSON Schema of the settings of a method."""
     return method(name).settings.model_json_schema()
 
 
+@checked
 def plan_file(path: str | Path, name: str, allow_collision: bool = False) -> AnyPlan:
     """Plan the tasks of a task file or scene file by a method, arm after arm.
 

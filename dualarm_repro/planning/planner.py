@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 from pydantic import Field
 
+from ..arguments import LATER, checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -48,6 +49,7 @@ class Ending(StrEnum):
     DIVERGED = "not converged"
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class FoundPath:
     """A path (N, nq) [rad] of all arms, linear between rows, and what its planner says of it.
@@ -64,6 +66,7 @@ class FoundPath:
         return self.reason == Ending.REACHED
 
 
+@checked
 @dataclass(eq=False)
 class PathProblem:
     """Two configurations of all arms of a scene, and counted access to its distances.
@@ -80,8 +83,8 @@ class PathProblem:
     """
 
     scene: Scene
-    start: np.ndarray
-    goal: np.ndarray
+    start: Annotated[np.ndarray, LATER]
+    goal: Annotated[np.ndarray, LATER]
     settings: PlannerSettings = field(default_factory=PlannerSettings)
     evaluations: int = 0
 
@@ -126,6 +129,7 @@ class PathProblem:
         self.evaluations += 1
         return clearance_gradient(self.scene, q, time)
 
+    @checked
     def at_rest(self, method: str) -> None:
         """Raise if something moves by itself, for a method that knows no time.
 
@@ -138,6 +142,7 @@ class PathProblem:
             if not isinstance(mover, MovingArm) or len(mover.path.index) > 1:
                 raise InputError(method, "moving", name, "a scene in which only the arms move")
 
+    @checked
     def without(self, others: dict[str, np.ndarray]) -> PathProblem:
         """The same for fewer arms: ``others`` (nq,) [rad] stand where it says."""
         scene = self.scene

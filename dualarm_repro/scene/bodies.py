@@ -6,12 +6,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import LATER, checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
@@ -23,6 +24,7 @@ from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 Sort = Literal["capsule", "box", "plane", "hull"]
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class PlacedArm:
     """A controlled arm, the pose of its base in the world and a planner's start and goal [rad]."""
@@ -30,8 +32,8 @@ class PlacedArm:
     name: str
     arm: Arm
     placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
-    start: np.ndarray | None = None
-    goal: np.ndarray | None = None
+    start: Annotated[np.ndarray, LATER] | None = None
+    goal: Annotated[np.ndarray, LATER] | None = None
 
     if TYPE_CHECKING:  # anything that makes an array is taken
 

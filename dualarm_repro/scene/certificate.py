@@ -9,11 +9,12 @@ two bodies can travel at most w relative to each other is therefore nowhere belo
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import OPEN, Count, Positive, checked
 from ..arms.arm import Arm
 from ..arms.exclusions import shape_of
 from ..arms.fit.triangles import PRISM
@@ -42,13 +43,14 @@ class Bracket(NamedTuple):
     evaluations: int
 
 
+@checked
 def certified_minimum(
     scene: Scene,
     path: ArrayLike,
     index: ArrayLike | None = None,
-    tolerance: float = 1e-3,
-    enough: float = np.inf,
-    budget: int = 200_000,
+    tolerance: Positive = 1e-3,
+    enough: Annotated[float, OPEN] = np.inf,
+    budget: Count = 200_000,
 ) -> Bracket:
     """Bounds on min over s of min over pairs of d(q(s), t(s)) for a path linear between samples.
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
 from .placement import place
 from .quantities import array_of
@@ -57,6 +58,7 @@ class Clearance:
         return int(pair) if pair.ndim == 0 else pair
 
 
+@checked
 def clearance(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> Clearance:
     """d_k(q, t) of every watched pair, with nearest points and normals.
 
@@ -83,6 +85,7 @@ def clearance(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> Clearance:
     return Clearance(scene.pairs.names, distance, *np.moveaxis(witness, -2, 0))
 
 
+@checked
 def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
     """The distances of :func:`clearance` alone, (P,) or (N, P); several times faster for many q."""
     rows = scene.configurations(q)

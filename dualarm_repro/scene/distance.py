@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from .hull import ConvexHull
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
@@ -32,6 +33,7 @@ class Witness(NamedTuple):
         return Witness(self.distance, self.point_b, self.point_a, -self.normal)
 
 
+@checked
 def signed_distance(a: Shape, b: Shape) -> Witness:
     """d(a, b): length of the shortest gap, or minus that of the shortest separating translation.
 

@@ -8,17 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
+from ..arguments import Shape, checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
 from .quantities import array_of, finite_pose
 from .shapes import Box, Capsule, Sphere
+
+#: Times (N,).
+Times = Annotated[np.ndarray, Shape("N")]
 
 
 class _Track:
@@ -45,6 +50,7 @@ class _Track:
         return np.column_stack([np.interp(time, self.index, column) for column in total.T])
 
 
+@checked
 class JointPath(_Track):
     """Joint vectors q_k at index t_k, q(t) linear in between.
 
@@ -63,18 +69,21 @@ class JointPath(_Track):
         )
         super().__init__("JointPath", len(self.configurations), index)
 
-    def at(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def at(self, time: Times) -> np.ndarray:
         """q(t) for times (N,), (N, nq)."""
         k, fraction = self._locate(time)
         after = np.minimum(k + 1, len(self.configurations) - 1)
         start = self.configurations[k]
         return start + fraction[:, None] * (self.configurations[after] - start)
 
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def travel(self, time: Times) -> np.ndarray:
         """Angle each joint has covered until t, back and forth added, (N, nq)."""
         return self._cumulative(time, np.abs(np.diff(self.configurations, axis=0)))
 
 
+@checked
 class PosePath(_Track):
     """Poses T_k at index t_k; translation linear and rotation about a fixed axis in between.
 
@@ -99,19 +108,22 @@ class PosePath(_Track):
         self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
 
-    def at(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def at(self, time: Times) -> np.ndarray:
         """T(t) for times (N,), upper parts (N, 3, 4)."""
         k, fraction = self._locate(time)
         turned = Rotation.from_rotvec(fraction[:, None] * self._turn[k]).as_matrix()
         translation = self.translation[k] + fraction[:, None] * self._step[k]
         return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
 
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def travel(self, time: Times) -> np.ndarray:
         """Distance covered [m] and angle turned [rad] until t, (N, 2)."""
         steps = [np.linalg.norm(part[:-1], axis=1) for part in (self._step, self._turn)]
         return self._cumulative(time, np.column_stack(steps))
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingShape:
     """A shape, given in its own frame, whose frame follows a path."""
@@ -127,6 +139,7 @@ class MovingShape:
             raise InputError("MovingShape", "path", self.path, "a PosePath")
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingArm:
     """An arm on a base at ``placement`` that replays a joint path."""

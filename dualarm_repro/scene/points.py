@@ -12,6 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
+from ..arguments import checked
 from ..errors import InputError
 from ..kernel import kernel
 from .boxes import excess, shortest_exit
@@ -71,6 +73,7 @@ def to_hull(points, polytope, distance, gradient):
         gradient[k, 0], gradient[k, 1], gradient[k, 2] = scaled(-1.0, inward)
 
 
+@checked
 def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndarray, np.ndarray]:
     """d_m(p) and its gradient for every point and shape.
 
@@ -93,7 +96,12 @@ def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndar
     InputError
         ``points`` has another shape, NaN or infinity.
     """
-    points = np.asarray(points, dtype=float)
+    try:
+        points = real_array(points)
+    except (TypeError, ValueError):
+        raise InputError(
+            "point_distances", "points", points, "finite coordinates (..., 3)"
+        ) from None
     if points.ndim < 1 or points.shape[-1] != 3 or not np.isfinite(points).all():
         raise InputError("point_distances", "points", points, "finite coordinates (..., 3)")
     rows = np.ascontiguousarray(points.reshape(-1, 3))

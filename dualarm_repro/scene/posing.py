@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
 from ..arms.chain import SlidingChain
@@ -25,6 +26,7 @@ class Links(NamedTuple):
     radius: np.ndarray
 
 
+@checked
 @kept_with_owner
 def links_of(arm: Arm) -> Links:
     """Capsules of ``arm.geometry``."""

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.poses import check_configurations
 from ..errors import ConfigurationError, InputError, UnknownNameError
@@ -22,6 +23,7 @@ FLOOR = "floor"
 _TWO_TURNS = 2.0 * np.pi
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Everything that has a place in one world frame.
@@ -114,6 +116,7 @@ class Scene:
                     row[start : start + body.joint] += value
         return sign
 
+    @checked
     def stack(self, **q: ArrayLike) -> np.ndarray:
         """Joint vectors of all arms, given by name, as one q: (nq,), or (N, nq) from rows.
 
@@ -132,6 +135,7 @@ class Scene:
             raise ConfigurationError("scene", "rows of the arms", lengths, "as many for each arm")
         return np.concatenate(parts, axis=-1)
 
+    @checked
     def configurations(self, q: ArrayLike) -> np.ndarray:
         """``q`` as a float64 array (nq,) or (N, nq).
 
@@ -143,6 +147,7 @@ class Scene:
         expected = f"{self.nq} finite numbers [rad] for {', '.join(self.columns)}, or rows of them"
         return check_configurations("scene", q, self.nq, expected)
 
+    @checked
     def replaying(self, name: str, path: JointPath) -> Scene:
         """The same scene with one controlled arm turned into an obstacle that follows ``path``.
 

@@ -12,6 +12,7 @@ from typing import Annotated, Any, NamedTuple
 import pinocchio as pin
 from pydantic import Field
 
+from ..arguments import checked
 from ..arms import Arm, load_arm
 from ..arms.shapes import Shapes
 from ..datafiles import StrictModel
@@ -113,6 +114,7 @@ class WrittenScene(NamedTuple):
     scene: Scene
 
 
+@checked
 def load_scene(path: str | Path) -> Scene:
     """Read a scene file.
 

@@ -10,12 +10,14 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms.capsules import segment_capsule
 from ..errors import InputError
 from .hull import ConvexHull
 from .quantities import array_of, positive, rotation3, unit3, vector3
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Sphere:
     """|x - center| <= radius; center (3,) and radius in metres."""
@@ -36,6 +38,7 @@ class Sphere:
         """The center twice: a segment of length zero, (2, 3)."""
         return np.stack([self.center, self.center])
 
+    @checked
     def moved(self, placement: pin.SE3) -> Sphere:
         """The shape after a rigid motion."""
         return Sphere(placement.act(self.center), self.radius)
@@ -45,6 +48,7 @@ class Sphere:
         return coal.Sphere(self.radius), coal.Transform3s(np.eye(3), self.center)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Capsule:
     """Points within ``radius`` of the segment ``start`` to ``end`` [m], which may have length 0."""
@@ -67,6 +71,7 @@ class Capsule:
         """Ends of the core segment, (2, 3)."""
         return np.stack([self.start, self.end])
 
+    @checked
     def moved(self, placement: pin.SE3) -> Capsule:
         """The shape after a rigid motion."""
         return Capsule(placement.act(self.start), placement.act(self.end), self.radius)
@@ -77,6 +82,7 @@ class Capsule:
         return shape, coal.Transform3s(placement.rotation, placement.translation)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Box:
     """|R^T (x - center)|_i <= size_i / 2: edge lengths ``size`` (3,) [m], ``rotation`` R (3, 3)."""
@@ -108,6 +114,7 @@ class Box:
         """Half edge lengths (3,)."""
         return 0.5 * self.size
 
+    @checked
     def moved(self, placement: pin.SE3) -> Box:
         """The shape after a rigid motion."""
         rotation = placement.rotation @ self.rotation
@@ -118,6 +125,7 @@ class Box:
         return coal.Box(*self.size), coal.Transform3s(self.rotation, self.center)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class HalfSpace:
     """normal . x <= offset: everything below a plane.
@@ -143,6 +151,7 @@ class HalfSpace:
         """Normal and offset, (4,)."""
         return np.append(self.normal, self.offset)
 
+    @checked
     def moved(self, placement: pin.SE3) -> HalfSpace:
         """The shape after a rigid motion."""
         normal = placement.rotation @ self.normal
@@ -166,6 +175,7 @@ def _set(shape: object, **values: object) -> None:
         object.__setattr__(shape, name, value)
 
 
+@checked
 def facing(normal: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
     """Rotation with columns width, height, normal; the height is the part of ``up`` normal to it.
 
@@ -182,6 +192,7 @@ def facing(normal: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
     return np.column_stack([x, np.cross(z, x), z])
 
 
+@checked
 def window_frame(
     center: ArrayLike,
     rotation: ArrayLike,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
@@ -21,6 +22,7 @@ BASE_READINGS = ("inverted", "literal")
 CARRIER_REFERENCES = ("workpiece_origin", "pipe_end", "own_flange")
 
 
+@checked
 @dataclass(frozen=True)
 class Workpiece:
     """Main pipe along x, branch along z from its middle, lengths in metres."""
@@ -67,6 +69,7 @@ class Workpiece:
         return np.array([self.radius_main, self.radius_branch, rim, rim])
 
 
+@checked
 @dataclass(frozen=True)
 class Tools:
     """How the carriers grip and the welder reaches; names as in :mod:`.tooling`."""
@@ -84,6 +87,7 @@ class Tools:
             )
 
 
+@checked
 def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
     """Poses of the bases in the world from the matrices M that a document gives them.
 
@@ -105,6 +109,7 @@ def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
     return matrices if reading == "inverted" else np.linalg.inv(matrices)
 
 
+@checked
 def assemble(
     arms: Sequence[Arm],
     bases: np.ndarray,

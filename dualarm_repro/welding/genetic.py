@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.distance import pdist
 
+from ..arguments import checked
 from ..errors import InputError, UnknownNameError
 
 Fitness = Callable[[np.ndarray], np.ndarray]
@@ -25,6 +26,7 @@ _REDRAWS = 10
 _SMALLEST_STEP = 1e-6
 
 
+@checked
 @dataclass(frozen=True)
 class GeneticSettings:
     """Settings of a run.
@@ -143,7 +145,7 @@ def initialise(search: Search) -> None:
 def evaluate(search: Search) -> None:
     """Solve the job of every new individual; a violated constraint gives fitness 0"""
     new = np.arange(search.settings.population) >= search.known
-    search.values[new] = search.fitness(search.individuals[new])
+    search.values[new] = rated(search.fitness, search.individuals[new])
     search.evaluations += int(new.sum())
     if search.settings.infeasible == "redraw":
         for _ in range(_REDRAWS):
@@ -153,7 +155,7 @@ def evaluate(search: Search) -> None:
             search.individuals[bad] = search.rng.uniform(
                 search.low, search.high, (int(bad.sum()), len(search.low))
             )
-            search.values[bad] = search.fitness(search.individuals[bad])
+            search.values[bad] = rated(search.fitness, search.individuals[bad])
             search.evaluations += int(bad.sum())
 
 
@@ -218,6 +220,7 @@ def reproduce(search: Search) -> None:
 LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, select, reproduce)
 
 
+@checked
 def evolve(
     fitness: Fitness,
     box: np.ndarray,
@@ -261,6 +264,23 @@ def evolve(
         search.evaluations,
         search.reason,
     )
+
+
+def rated(fitness: Fitness, individuals: np.ndarray) -> np.ndarray:
+    """Fitness (P,) of individuals (P, n).
+
+    Raises
+    ------
+    InputError
+        What the fitness gives is no finite number each, which would rank as anything.
+    """
+    values, expected = fitness(individuals), f"{len(individuals)} finite numbers"
+    array = np.asarray(values)
+    if array.shape != (len(individuals),) or array.dtype.kind not in "fiu":
+        raise InputError("search", "fitness", values, expected)
+    if not np.isfinite(array).all():
+        raise InputError("search", "fitness", float(array[~np.isfinite(array)][0]), expected)
+    return array
 
 
 def checked_box(box: np.ndarray) -> np.ndarray:

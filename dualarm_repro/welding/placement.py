@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import MASK, checked
 from ..errors import InputError
 from ..scene.clearance import blocks as rows_of
 from .branches import Status, follow
@@ -52,11 +54,13 @@ class Jobs:
         """Mask (P,)."""
         return self.status == Status.FEASIBLE
 
-    def select(self, mask: np.ndarray) -> Jobs:
+    @checked
+    def select(self, mask: Annotated[np.ndarray, MASK]) -> Jobs:
         """The jobs where the mask (P,) is true."""
         return Jobs(**{name: values[mask] for name, values in vars(self).items()})
 
 
+@checked
 @dataclass(eq=False)
 class Placement:
     """Fitness of positions C: the aggregated measure, 0 where a constraint is violated.
@@ -82,10 +86,12 @@ class Placement:
         parts = [self.score(self.jobs(block)) for block in blocks(centres)]
         return np.concatenate(parts) if parts else np.empty(0)
 
+    @checked
     def jobs(self, centres: ArrayLike) -> Jobs:
         """Joint paths and constraints at positions (P, 3) [m], cheapest tests first."""
         return solve_jobs(self.cell, self.separation, _positions(centres))
 
+    @checked
     def measures(self, jobs: Jobs) -> Measures:
         """Measures along the seam (P, N) of jobs whose robots all have a path."""
         objective, inverse = self.objective, None
@@ -93,6 +99,7 @@ class Placement:
             inverse = inverse_volumes(self.cell, jobs.q, objective.space, objective.carriers)
         return objective.measures(jobs.w, inverse)
 
+    @checked
     def score(self, jobs: Jobs) -> np.ndarray:
         """Fitness (P,) of jobs."""
         fitness = np.zeros(len(jobs.centres))

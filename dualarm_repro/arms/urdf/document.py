@@ -50,7 +50,8 @@ def read(path: Path) -> Element:
     Raises
     ------
     DataFileError
-        Missing, broken, too large or too deep file, a document type, another root, macros that are not expanded.
+        Missing, broken, too large or too deep file, a document type, another root, macros that are
+        not expanded.
     """
     written = contents(path, "a readable URDF file", LARGEST_FILE)
     parser = XMLParser(target=_Builder())

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import Field
 
+from ...arguments import checked
 from ...settings import Positive, Settings, numbers
 from .activation import SLOPE_AT_ZERO, Activation
 from .penalty import Penalty
@@ -73,6 +74,7 @@ class NetworkSettings(Settings):
         default=True, description="a solver of fixed step limits the gain to 1 / (step Psi'(0))"
     )
 
+    @checked
     def numbers(self, dt: float | None = None) -> NetworkNumbers:
         """For the kernels; ``dt`` is the step of a solver of fixed step."""
         slope = SLOPE_AT_ZERO[self.activation]

@@ -9,6 +9,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from ...arguments import checked
 from ...scene import JointPath, Scene, certified_minimum, distances
 from ...scene.broad_phase import near_scene
 from ...scene.certificate import Bracket
@@ -72,6 +73,7 @@ class Truth:
 _Pair = tuple[str, str] | None
 
 
+@checked
 def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     """Judge the motion of all arms of a scene, from the first index to the last of any path.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...arguments import Number, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, PlacedArm, Scene
 from ...scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
@@ -44,14 +45,17 @@ class Obstacles:
     half: np.ndarray
     planes: np.ndarray
 
-    def at(self, step: int) -> int:
+    @checked
+    def at(self, step: Number) -> int:
         """Row of the arrays that holds at a step."""
         return min(step, len(self.cores) - 1)
 
-    def moving(self, step: int) -> bool:
+    @checked
+    def moving(self, step: Number) -> bool:
         """Whether some shape is yet to move."""
         return step < len(self.cores) - 1
 
+    @checked
     def with_arm(self, placed: PlacedArm, points: ControlPoints, path: JointPath) -> Obstacles:
         """These obstacles and the control points of an arm that follows a path over the steps.
 
@@ -71,8 +75,9 @@ class Obstacles:
             boxes=_held(self.boxes, rows),
         )
 
+    @checked
     def distances(
-        self, ends: np.ndarray, radius: np.ndarray, step: int
+        self, ends: np.ndarray, radius: np.ndarray, step: Number
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """d, the nearest point of each control point, and grad d there.
 
@@ -110,6 +115,7 @@ class Obstacles:
         return np.concatenate(distances, axis=2), witness[..., 0, :], -witness[..., 2, :]
 
 
+@checked
 def obstacles_of(scene: Scene, leave_out: Collection[str] = ()) -> Obstacles:
     """Everything in a scene that stands or moves by itself; its controlled arms are no obstacles.
 

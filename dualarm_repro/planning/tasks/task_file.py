@@ -23,6 +23,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar, overload
 import numpy as np
 from pydantic import Field
 
+from ...arguments import checked
 from ...arms import Arm
 from ...datafiles import StrictModel
 from ...errors import DataFileError, InputError
@@ -139,6 +140,7 @@ def load_tasks(
     """With settings of that kind."""
 
 
+@checked
 def load_tasks(
     path: str | Path,
     kind: type[Settings] = APFSettings,

@@ -1,4 +1,4 @@
-"""Joints that form no tree, and arguments of the wrong type, are named before Pinocchio sees them."""
+"""Joints that form no tree, and arguments of the wrong type, are named before the parser sees them."""
 
 import pytest
 
