@@ -1,5 +1,5 @@
-"""Scene, task and robot files read so that no file can overwhelm the reader: size, nesting and the number
-of values, with aliases written out, are bounded before anything is made of them."""
+"""Scene, task and robot files read so that no file can overwhelm the reader: size, nesting and the
+number of values, with aliases written out, are bounded before anything is made of them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ def read_written(path: Path) -> dict[str, Any]:
     Raises
     ------
     DataFileError
-        Missing, no regular file, too large, nested too deep, aliases that multiply or contain themselves, not YAML.
+        Missing, no regular file, too large, nested too deep, aliases that multiply or contain
+        themselves, not YAML.
     """
     path = Path(path)
     written = contents(opened(path), "a readable YAML file", LARGEST_FILE)

@@ -60,8 +60,9 @@ class URDF:
     Raises
     ------
     DataFileError
-        Missing or broken file, links that form no tree, a non-finite number, limits in the wrong order, no joint, a joint
-        of the chain that is neither revolute nor prismatic, a collision shape that is not known.
+        Missing or broken file, links that form no tree, a non-finite number, limits in the wrong
+        order, no joint, a joint of the chain that is neither revolute nor prismatic, a collision
+        shape that is not known.
     UnknownNameError
         No such flange frame or joint.
     """

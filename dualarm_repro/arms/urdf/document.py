@@ -27,7 +27,7 @@ class _Deep(ValueError):
 class _Builder(TreeBuilder):
     _depth = 0
 
-    def start(self, tag: str, attrs: dict[str, str]) -> Element:  # type: ignore[override]
+    def start(self, tag: str, attrs: dict[str, str]) -> Element:
         """Count the nesting."""
         self._depth += 1
         if self._depth > DEEPEST:
@@ -50,7 +50,8 @@ def read(path: Path) -> Element:
     Raises
     ------
     DataFileError
-        Missing, broken, too large or too deep file, a document type, another root, macros that are not expanded.
+        Missing, broken, too large or too deep file, a document type, another root, macros that are
+        not expanded.
     """
     written = contents(path, "a readable URDF file", LARGEST_FILE)
     parser = XMLParser(target=_Builder())
