@@ -27,7 +27,7 @@ class _Deep(ValueError):
 class _Builder(TreeBuilder):
     _depth = 0
 
-    def start(self, tag: str, attrs: dict[str, str]) -> Element:  # type: ignore[override]
+    def start(self, tag: str, attrs: dict[str, str]) -> Element:
         """Count the nesting."""
         self._depth += 1
         if self._depth > DEEPEST:

@@ -1,4 +1,4 @@
-"""Joints that form no tree, and arguments of the wrong type, are named before the parser sees them."""
+"""Joints that form no tree, and wrong arguments, are named before Pinocchio sees them."""
 
 import pytest
 
