@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 # One configuration as the compiled code takes it; what differs is checked and converted first.
 _ARRAY, _ROW, _FLOAT, _POSE, _empty = np.ndarray, (8,), np.dtype(np.float64), (4, 4), np.empty
+_CODE = ("_one_pose", "_one_jacobian", "_one_manipulability")
 
 
 class Arm(JointSpace):
@@ -225,9 +226,8 @@ class Arm(JointSpace):
             Wrong shape, NaN or infinity.
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one = _empty(_POSE)
             run, constants = self._one_pose
-            if run(q, constants, one):
+            if run(q, constants, one := _empty(_POSE)):
                 return one
         q, known = self.configurations(q), self._kinematics
         self._one_pose = known.pose.compiled, known.constants
@@ -264,9 +264,8 @@ class Arm(JointSpace):
             Wrong shape, NaN or infinity.
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one = _empty((6, self.nq))
             run, constants = self._one_jacobian
-            if run(q, constants, one):
+            if run(q, constants, one := _empty((6, self.nq))):
                 return one
         q, known = self.configurations(q), self._kinematics
         self._one_jacobian = known.jacobian.compiled, known.constants
@@ -282,9 +281,8 @@ class Arm(JointSpace):
         float or ndarray (N,)
         """
         if type(q) is _ARRAY and q.strides == _ROW and q.dtype is _FLOAT:
-            one = _empty((1, 1))
             run, constants = self._one_manipulability
-            if run(q, constants, one):
+            if run(q, constants, one := _empty((1, 1))):
                 return float(one[0, 0])
         q, known = self.configurations(q), self._kinematics
         self._one_manipulability = known.manipulability.compiled, known.constants
@@ -387,9 +385,11 @@ class Arm(JointSpace):
         # Compiled code for one configuration, straight at hand: a call takes less than 1 us. The
         # first call puts it there.
         unknown: tuple[Compiled, np.ndarray] = nothing, kinematics.constants
-        self._one_pose = unknown
-        self._one_jacobian = unknown
-        self._one_manipulability = unknown
+        self._one_pose = self._one_jacobian = self._one_manipulability = unknown
+
+    def __getstate__(self) -> dict[str, object]:
+        unknown = nothing, self._kinematics.constants  # machine code stays in its process
+        return self.__dict__ | dict.fromkeys(_CODE, unknown)
 
     def _shaped(self, q: np.ndarray, rows: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """Values of rows for one configuration (nq,) or for many (N, nq)."""

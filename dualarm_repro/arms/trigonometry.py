@@ -9,6 +9,7 @@ number, and signs are changed in its first.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from llvmlite import ir
 from numba import types
@@ -25,7 +26,7 @@ FAR = 1.6e6  #: [rad] from where on k times the part is not exact
 
 
 @intrinsic
-def _bits(context, x):  # type: ignore[no-untyped-def]
+def _bits(context: Any, x: Any) -> Any:
     """The bits of a float64 as an integer."""
     return types.int64(types.float64), lambda _, builder, __, parts: builder.bitcast(
         parts[0], ir.IntType(64)
@@ -33,7 +34,7 @@ def _bits(context, x):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def _number(context, bits):  # type: ignore[no-untyped-def]
+def _number(context: Any, bits: Any) -> Any:
     """The float64 of these bits."""
     return types.float64(types.int64), lambda _, builder, __, parts: builder.bitcast(
         parts[0], ir.DoubleType()
@@ -41,7 +42,7 @@ def _number(context, bits):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def _fma(context, a, b, c):  # type: ignore[no-untyped-def]
+def _fma(context: Any, a: Any, b: Any, c: Any) -> Any:
     """a b + c, rounded once."""
     return types.float64(a, b, c), lambda _, builder, __, parts: builder.fma(*parts)
 

@@ -5,7 +5,7 @@ No arithmetic happens here, and every target of the compiler has instructions fo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from llvmlite import ir
@@ -19,7 +19,9 @@ _DOUBLE, _INTEGER = ir.DoubleType(), ir.IntType(32)
 def _storing(entries: int) -> Any:
     """The intrinsic for so many entries, a power of 2 up to ``WIDTH``."""
 
-    def store(typingctx, w, at, stride, out, to, step):  # type: ignore[no-untyped-def]
+    def store(
+        typingctx: Any, w: Any, at: Any, stride: Any, out: Any, to: Any, step: Any
+    ) -> tuple[Any, Callable[..., None]]:
         signature = types.void(w, types.int64, types.int64, out, types.int64, types.int64)
 
         def codegen(context: Any, builder: Any, sig: Any, arguments: Any) -> None:
