@@ -27,8 +27,8 @@ from .few_constraints import Gram, few_constraints, make_gram
 
 SOLVED, INFEASIBLE, ITERATION_LIMIT = 0, 1, 2
 _FEASIBLE = 1e-12
-_DEPENDENT = 1e-22  # squared sine of a normal against the active span
-_MEANT = 1e-9  # violation of a dependent constraint from which on it counts as a contradiction
+_DEPENDENT = 1e-18  # squared sine of a normal against the active span
+_MEANT = 1e-8  # violation of a dependent constraint from which on it counts as a contradiction
 _SETTLED = 1e-13  # violation of active constraints that is not refined
 
 
@@ -186,6 +186,8 @@ def by_factors(program, work):
             count = remove_normal(Q, L, leaving, count, active, u)
             violation += t * outside if independent else 0.0
         if t == np.inf:
+            if _refine(program, work, count):  # it may have been the rounding of many steps
+                continue
             if violation < -_MEANT:
                 status = INFEASIBLE
                 break

@@ -13,12 +13,20 @@ KINDS = ("plain", "duplicates", "near-dependent", "all rows tight", "near-depend
 PER_KIND = 800
 
 
+def binary(values, digits):
+    """Rounded to so many binary digits after the point, so that products and sums are exact."""
+    return np.round(np.asarray(values) * 2.0**digits) / 2.0**digits
+
+
 def degenerate(kind, seed):
-    """A problem with 14 unknowns and a known feasible point."""
+    """A problem with 14 unknowns and a known point that is feasible exactly, not but for rounding.
+
+    With rounded right-hand sides nearly dependent equalities would contradict tight bounds.
+    """
     rng = np.random.default_rng([KINDS.index(kind), seed])
     n, m, k = 14, int(rng.choice([0, 3, 6, 12])), int(rng.choice([0, 3, 9, 20]))
-    x = rng.normal(size=n)
-    A, G = rng.normal(size=(m, n)), rng.normal(size=(k, n))
+    x = binary(rng.normal(size=n), 8)
+    A, G = binary(rng.normal(size=(m, n)), 10), binary(rng.normal(size=(k, n)), 10)
     if kind == "duplicates":
         if m:
             A[m // 2 :] = A[: m - m // 2] * rng.choice([1.0, -2.0])
@@ -27,10 +35,10 @@ def degenerate(kind, seed):
     if kind.startswith("near-dependent"):
         for i in range(1, m):
             if rng.random() < 0.5:
-                A[i] = A[i - 1] + 10.0 ** rng.uniform(-12, -3) * rng.normal(size=n)
+                A[i] = A[i - 1] + binary(10.0 ** rng.uniform(-4.5, -2) * rng.normal(size=n), 30)
         for i in range(1, k):
             if rng.random() < 0.5:
-                G[i] = G[i - 1] + 10.0 ** rng.uniform(-12, -3) * rng.normal(size=n)
+                G[i] = G[i - 1] + binary(10.0 ** rng.uniform(-4.5, -2) * rng.normal(size=n), 30)
     loose = rng.random(k) * (rng.random(k) < 0.5)
     lower, upper = (x + side * rng.random(n) * (rng.random(n) > 0.2) for side in (-1, 1))
     if kind.endswith("tight"):
