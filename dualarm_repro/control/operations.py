@@ -7,8 +7,7 @@ import numpy as np
 from ..instrument import Cost, Instrument
 from .assembly import make_buffers
 from .circle import Circles, follow
-from .controller import control_step
-from .least_distance import least_distance
+from .least_distance import least_distance, make_work
 from .least_norm import least_norm
 from .neural.network import network_rate, state_rate
 from .neural.network_settings import NetworkSettings
@@ -17,6 +16,7 @@ from .problem import QuadraticProgram
 from .settings import ControllerSettings
 from .singular_values import least_norm_by_singular_values
 from .solvers import solve
+from .step import control_step
 from .system import ArmSystem
 from .warm_start import least_distance_from
 
@@ -72,7 +72,8 @@ def control_cost(
     position, velocity = np.empty((2, len(system.arms), 3))
     follow(circles.numbers(), t, position, velocity)
     state = (np.ascontiguousarray(q), home, position, velocity)
-    return Instrument().cost(control_step, system.arrays, numbers, *state, buffers)
+    work = make_work(system.nq, 3 * len(system.arms), len(buffers.program.h))
+    return Instrument().cost(control_step, system.arrays, numbers, *state, buffers, work)
 
 
 def network_control_cost(
