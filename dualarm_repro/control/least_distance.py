@@ -132,7 +132,7 @@ def least_distance_within(program, work):
 @kernel
 def by_factors(program, work):
     """The dual method for any constraints; returns the status and how many are active."""
-    target, A, b, G, h, lower, upper = program
+    target, _, b, G, h, lower, upper = program
     Q, L, x, a, d, z, r, u, active, taken = work[:10]
     n, m, k = len(target), len(b), len(h)
     for i in range(n):

@@ -1,11 +1,8 @@
 """The exact method on 4 000 random problems, degenerate ones among them: none may be wrong."""
 
-import daqp
 import numpy as np
 import pytest
 
-from dualarm_repro.control.certificate import residual
-from dualarm_repro.control.least_distance import SOLVED, by_factors, least_distance, make_work
 from dualarm_repro.control.problem import NoSolution, QuadraticProgram
 from dualarm_repro.control.solvers import solve
 
