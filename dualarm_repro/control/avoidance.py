@@ -15,10 +15,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..kernel import kernel
-from ..scene.vectors import dot, vector
 from ..settings import code
 from .damper import approach_bound
-from .kinematics import point_velocity, relative_velocity
+from .kinematics import relative_velocity
 from .settings import PairSelection, RowForm
 
 _PAIR_NORMAL, _ARM_NORMAL = code(RowForm.PAIR_NORMAL), code(RowForm.ARM_NORMAL)
@@ -59,9 +58,6 @@ def select_pairs(arrays, selection, outer, distance, chosen):
 def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
     """Write the rows of the chosen pairs; returns how many rows."""
     n = G.shape[1]
-    if numbers.form == _PAIR_NORMAL:
-        _fill_normal_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h)
-        return count
     columns = np.empty((2, 3, n))
     row = 0
     for k in chosen[:count]:
@@ -78,7 +74,15 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
             numbers.damper, distance[k], numbers.damper_gain, numbers.outer, numbers.inner
         )
         form = numbers.form
-        if form == _ARM_NORMAL:
+        if form == _PAIR_NORMAL:
+            for j in range(n):
+                total = 0.0
+                for r in range(3):
+                    total -= normal[r] * (columns[0, r, j] + columns[1, r, j])
+                G[row, j] = total
+            h[row] = beta
+            row += 1
+        elif form == _ARM_NORMAL:
             for side in range(2):
                 if still[side]:  # a fixed base can do nothing about the distance
                     continue
@@ -106,22 +110,3 @@ def fill_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
                 h[row] = beta if form == _PAIR_AXES else normal[r] * normal[r] * beta
                 row += 1
     return row
-
-
-@kernel
-def _fill_normal_rows(arrays, numbers, frames, distance, witness, chosen, count, G, h):
-    """-n . (J_b - J_a) x <= beta, a scalar per joint: n . (z x (p - o))."""
-    for row in range(count):
-        k = chosen[row]
-        normal = vector(witness[k, 2])
-        for j in range(G.shape[1]):
-            G[row, j] = 0.0
-        for side in range(2):
-            body, sign = arrays.pairs[k, side], 1.0 - 2.0 * side
-            arm = arrays.frame[body] - arrays.last[body]
-            p = vector(witness[k, side])
-            for joint in range(arrays.first[body], arrays.last[body]):
-                G[row, joint] += sign * dot(normal, point_velocity(frames, arm, joint, p))
-        h[row] = approach_bound(
-            numbers.damper, distance[k], numbers.damper_gain, numbers.outer, numbers.inner
-        )

@@ -12,7 +12,8 @@ from ..settings import code
 from .assembly import sense_near, state
 from .certificate import residual
 from .circle import follow
-from .least_distance import SOLVED, least_distance_within
+from .few_constraints import minimise
+from .least_distance import SOLVED
 from .parts import with_task
 from .problem import CERTIFIED
 from .readings import angles_at, noise_at
@@ -87,7 +88,7 @@ def run_exact(arrays, numbers, circle, first, last, dt, weights, readings, run, 
     run : Run
         Written where the steps have been taken.
     buffers, work
-        Of :func:`.assembly.make_buffers` and :func:`.least_distance.make_work`; after a failure
+        Of :func:`.assembly.make_buffers` and :func:`.few_constraints.make_work`; after a failure
         they hold the problem.
 
     Returns
@@ -111,7 +112,7 @@ def run_exact(arrays, numbers, circle, first, last, dt, weights, readings, run, 
         program = state(arrays, numbers, at, q[0], position, velocity, count, buffers)
         if smoothing > 0.0 and step > 0:
             program.target[:] = (program.target + smoothing * x[step - 1]) / (1.0 + smoothing)
-        found = least_distance_within(program, work)
+        found = minimise(program, work)
         v, y, z, w = work.x, work.y, work.z, work.w
         if found != SOLVED and slack_weight > 0.0:
             found, v, y, z, w, s = least_distance_with_slack(program, slack_weight)

@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .assembly import make_buffers, stated_in
-from .least_distance import INFEASIBLE, SOLVED, make_work
+from .few_constraints import make_work
+from .least_distance import INFEASIBLE, SOLVED
 from .problem import CERTIFIED, NoSolution, QuadraticProgram, Solution
 from .relaxed import least_distance_with_slack
 from .settings import ControllerSettings

@@ -14,11 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..kernel import kernel
-from .active_set import padded
+from .least_distance import SOLVED, least_distance
 
 _APART = 1e-6  # squared sine of a normal against the active span
 _SETTLED = 1e-13  # violation of active constraints that is not refined
 _FEASIBLE = 1e-12
+_REGISTER = 8  # numbers that a SIMD register holds
 
 
 class Gram(NamedTuple):
@@ -41,9 +42,51 @@ class Gram(NamedTuple):
 @kernel
 def make_gram(n):
     """Arrays for n unknowns."""
-    width = padded(n)
+    width = (n + _REGISTER - 1) // _REGISTER * _REGISTER
     N, x, L = np.zeros((n, width)), np.zeros(width), np.empty((n, n))
     return Gram(N, x, L, np.empty(n), np.empty(n), np.empty(n), np.empty(n, np.int64))
+
+
+class Work(NamedTuple):
+    """Answer ``x`` (n,), multipliers ``y`` (m,), ``z`` (k,), ``w`` (n,), and what finds them.
+
+    ``z`` is as long as the most rows there may be.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    w: np.ndarray
+    gram: Gram
+
+
+@kernel
+def make_work(n, m, k):
+    """Arrays for n unknowns, m equalities and at most k rows."""
+    return Work(np.empty(n), np.empty(m), np.empty(k), np.empty(n), make_gram(n))
+
+
+@kernel
+def minimise(program, work):
+    """:func:`.least_distance.least_distance` in given arrays; returns its status."""
+    n, m, k = len(program.target), len(program.b), len(program.h)
+    x, y, z, w, gram = work
+    count = few_constraints(program, gram)
+    if count < 0:
+        status, x[:], y[:], z[:k], w[:] = least_distance(program)
+        return status
+    x[:], y[:], z[:k], w[:] = gram.x[:n], 0.0, 0.0, 0.0
+    for j in range(count):
+        i, u = gram.active[j], gram.u[j]
+        if i < m:
+            y[i] = -u
+        elif i < m + k:
+            z[i - m] = u
+        elif i < m + k + n:
+            w[i - m - k] -= u
+        else:
+            w[i - m - k - n] += u
+    return SOLVED
 
 
 @kernel

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..instrument import Cost, Instrument
-from .assembly import make_buffers
+from ..kernel import kernel
+from .assembly import make_buffers, sense, state
+from .certificate import residual
 from .circle import Circles, follow
-from .least_distance import least_distance, make_work
+from .least_distance import least_distance
 from .least_norm import least_norm
 from .neural.network import network_rate, state_rate
 from .neural.network_settings import NetworkSettings
@@ -16,11 +18,22 @@ from .problem import QuadraticProgram
 from .settings import ControllerSettings
 from .singular_values import least_norm_by_singular_values
 from .solvers import solve
-from .step import control_step
 from .system import ArmSystem
 from .warm_start import least_distance_from
 
 _PRESSES = 1e-9  # multiplier from which on a constraint presses
+
+
+@kernel
+def exact_step(arrays, numbers, q, home, position, velocity, buffers):
+    """One step with every distance and the dual method from nothing, so at its dearest.
+
+    What :func:`.step.control_step` leaves out depends on where the arms are.
+    """
+    count = sense(arrays, numbers, q, np.empty(0), buffers)
+    program = state(arrays, numbers, q, home, position, velocity, count, buffers)
+    status, x, y, z, w = least_distance(program)
+    return status, len(program.h), residual(program, x, y, z, w), x
 
 
 def exact_cost(p: QuadraticProgram) -> Cost:
@@ -72,8 +85,7 @@ def control_cost(
     position, velocity = np.empty((2, len(system.arms), 3))
     follow(circles.numbers(), t, position, velocity)
     state = (np.ascontiguousarray(q), home, position, velocity)
-    work = make_work(system.nq, 3 * len(system.arms), len(buffers.program.h))
-    return Instrument().cost(control_step, system.arrays, numbers, *state, buffers, work)
+    return Instrument().cost(exact_step, system.arrays, numbers, *state, buffers)
 
 
 def network_control_cost(

@@ -9,7 +9,7 @@ from ..errors import InputError
 from .assembly import make_buffers, stated_in
 from .circle import Circles
 from .closed_loop import DONE, Ending, Run, make_run, run_exact, take
-from .least_distance import make_work
+from .few_constraints import make_work
 from .motion import Motion
 from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings

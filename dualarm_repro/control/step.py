@@ -9,7 +9,7 @@ from numba.experimental import structref
 from ..kernel import kernel
 from .assembly import sense_near, state
 from .certificate import residual
-from .least_distance import least_distance_within
+from .few_constraints import minimise
 
 #: Status of a step that was asked for with NaN or infinity.
 NOT_FINITE = -1
@@ -23,7 +23,7 @@ def control_step(arrays, numbers, q, home, position, velocity, buffers, work):
     """
     count, smallest = sense_near(arrays, numbers, q, np.empty(0), buffers)
     program = state(arrays, numbers, q, home, position, velocity, count, buffers)
-    status = least_distance_within(program, work)
+    status = minimise(program, work)
     worst = residual(program, work.x, work.y, work.z, work.w)
     return status, len(program.h), worst, smallest
 

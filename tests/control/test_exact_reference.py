@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.control.problem import NoSolution, QuadraticProgram
+from dualarm_repro.control.few_constraints import few_constraints, make_work, minimise
+from dualarm_repro.control.least_distance import SOLVED
+from dualarm_repro.control.problem import NoSolution, QuadraticProgram, Solution
 from dualarm_repro.control.solvers import solve
 
 KINDS = ("plain", "duplicates", "near-dependent", "all rows tight", "near-dependent and tight")
@@ -63,3 +65,20 @@ def test_none_is_wrong(kind):
         assert objective(p, own.x) <= objective(p, other.x) + 1e-6, seed
         if not kind.startswith("near-dependent"):
             np.testing.assert_allclose(own.x, other.x, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS[:4])
+def test_the_compiled_step_minimises_alike(kind):
+    """From the Gram matrix or by the dual method, in reused arrays: the same certified answer."""
+    work, few = {}, 0
+    for seed in range(200):
+        p = degenerate(kind, seed)
+        sizes = p.size, len(p.b), 20
+        used = work.setdefault(sizes, make_work(*sizes))
+        few += few_constraints(p.parts, used.gram) >= 0
+        if minimise(p.parts, used) != SOLVED:
+            continue
+        found = Solution(p, used.x, used.y, used.z[: len(p.h)], used.w)
+        if found.certified():
+            np.testing.assert_allclose(used.x, solve(p).x, rtol=0, atol=1e-6)
+    assert 0 < few < 200
