@@ -7,15 +7,19 @@ from numpy.typing import ArrayLike
 
 from ..arguments import checked
 from ..errors import InputError
+from .assembly import make_buffers, stated_in
 from .circle import Circles
-from .closed_loop import DONE, Ending, Run, run_exact
+from .closed_loop import DONE, Ending, Run, make_run, run_exact, take
+from .few_constraints import make_work
 from .motion import Motion
 from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings
+from .solvers import second_opinion
 from .system import ArmSystem
 
 #: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
+_PORTION = 2000  # steps between which a run can be stopped, tens of milliseconds
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
 
@@ -58,10 +62,21 @@ def simulate(
         A bad configuration, step, number of cycles or number of circles.
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
-    weight = slack_weight if slack else 0.0
+    weights = slack_weight if slack else 0.0, smoothing
     readings = readings or Readings.of(system)
-    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing
-    return truncated(system, dt, *run_exact(*arguments, readings))
+    arrays, run = system.arrays, make_run(system.nq, len(system.arms), q0, steps)
+    buffers = make_buffers(arrays, numbers)
+    work = make_work(system.nq, 3 * len(system.arms), len(buffers.program.h))
+    step, status = 0, DONE
+    while step <= steps and status == DONE:
+        span = step, min(step + _PORTION, steps + 1)
+        arguments = arrays, numbers, circles.numbers(), *span, dt, weights, readings
+        status, step, rows = run_exact(*arguments, run, buffers, work)
+        other = None if status == DONE else second_opinion(stated_in(buffers, rows))
+        if other is not None:
+            take(run, step, other.x, rows, dt)
+            step, status = step + 1, DONE
+    return truncated(system, dt, status, min(step, steps), run)
 
 
 @checked

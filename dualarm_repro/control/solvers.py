@@ -21,6 +21,10 @@ _UNBOUNDED = 1e30  # a bound beyond this is none, for every back end
 
 def _active_set(problem: QuadraticProgram) -> Solution:
     status, *parts = least_distance(problem.parts)
+    if status == SOLVED and (found := Solution(problem, *parts)).certified():
+        return found
+    if (other := second_opinion(problem)) is not None:
+        return other
     if status != SOLVED:
         reason = "the constraints exclude each other" if status == INFEASIBLE else "iteration limit"
         raise NoSolution("active_set", problem, reason)
@@ -41,6 +45,18 @@ def _daqp(problem: QuadraticProgram) -> Solution:
     return Solution(
         problem, np.array(x), multipliers[n : n + m], multipliers[n + m :], multipliers[:n]
     )
+
+
+def second_opinion(problem: QuadraticProgram) -> Solution | None:
+    """What DAQP finds where the own method finds nothing it can certify; None without certificate.
+
+    Its answers to badly conditioned problems are other ones, and either may be the one that holds.
+    """
+    try:
+        found = _daqp(problem)
+    except NoSolution:
+        return None
+    return found if found.certified() else None
 
 
 def _proxqp(problem: QuadraticProgram) -> Solution:

@@ -100,8 +100,10 @@ class Separation:
             frames = link_frames(arm.chain, base, np.ascontiguousarray(q[:, k]))
             place_cores(frames, links.joint, links.local, ends[:, start:stop])
             start = stop
-        turned = np.einsum("nij,kej->nkei", rotations, cell.pipe_cores)
-        ends[:, start:] = centres[:, np.newaxis, np.newaxis] + turned
+        piece = np.empty((len(q), 1, 3, 4))
+        piece[:, 0, :, :3], piece[:, 0, :, 3] = rotations, centres
+        carried = np.zeros(len(cell.pipe_cores), dtype=int)
+        place_cores(piece, carried, cell.pipe_cores, ends[:, start:])
         return ends
 
     @checked

@@ -67,7 +67,7 @@ def watch(
         asked.append(len(points))
         return watched(points)
 
-    low, high = genetic.checked_box(box).T
+    low, high = np.ascontiguousarray(genetic.checked_box(box).T)
     search = Search(fitness, low, high, settings, rng)
     genetic.initialise(search)
     trace.order.append(genetic.initialise.__name__)
