@@ -89,7 +89,7 @@ def test_a_collision_is_called_so_and_ends_with_three(dualarm, sweep, tmp_path):
     assert "COLLISION" in (out_dir / "sweep.html").read_text()
     code, out, _ = dualarm("check", sweep, table)
     assert code == 3
-    assert told(out)["left"] == "at its goal"
+    assert told(out)["left"] == "at its start, at its goal"
     assert "COLLISION" in out
 
 

@@ -186,7 +186,7 @@ def test_unknown_method():
         ("start: [0, 0, 0, 0, 0, 0], ", "", "tasks.left.start", "a joint vector or a position"),
         ("left:", "middle:", "tasks", "one of left, right"),
         ("gain: 1.0,", "gain: -1.0,", "settings: Attraction.gain", "greater than 0"),
-        ("step_limit: 2000", "steps: 2000", "settings: Termination.steps", "no field"),
+        ("step_limit: 2000", "steps: 2000", "settings: Termination.steps", "fields step_limit"),
         ("scene: cell.yaml", "scene: none.yaml", "file", "a readable YAML file"),
         ("tool: radial", "tool: sideways", "tasks.left.goal", "radial"),
     ],
