@@ -32,6 +32,9 @@ class Kinematics:
         self._structure = structure_of(chain, named)
         self.constants = np.array(named.values)
 
+    def __reduce__(self) -> tuple[type[Kinematics], tuple[Chain | SlidingChain]]:
+        return Kinematics, (self.chain,)  # code is not pickled, and shared again
+
     def poses(self, q: np.ndarray) -> np.ndarray:
         """T(q) -> (N, 4, 4) [m]."""
         return self.pose.rows(q, self.constants, (4, 4))

@@ -42,10 +42,6 @@ class Generated:
         self.name, self.size = name, len(results)
         self.source = plain_function(name, program, results, structure)
 
-    def __getstate__(self) -> dict[str, Any]:
-        made = ("plain", "compiled")  # functions stay in their process
-        return {key: value for key, value in self.__dict__.items() if key not in made}
-
     @cached_property
     def plain(self) -> Callable[..., tuple[Any, ...]]:
         """The plain function, for arrays of numpy."""
