@@ -7,7 +7,6 @@ from functools import partial
 from importlib.util import find_spec
 
 import numpy as np
-from edges import checker, ompl_path
 from timing import OURS, Row, timed
 
 from dualarm_repro.papers.qiu.document import PRINTED, placed, repelling, truth_scene
@@ -51,12 +50,5 @@ def measure() -> Iterator[Row]:
             TASK,
             "RRT-Connect of OMPL, whole links",
             lambda: plan_rrt_connect(scene, start, goals[0], int(next(seeds))),
-            1,
-        )
-        free, numbers = checker(scene, 0.0), iter(range(10_000))
-        yield timed(
-            TASK,
-            "RRT-Connect of OMPL, checks by Pinocchio, simplified",
-            lambda: ompl_path(scene, start, goals[0], free, next(numbers)),
             1,
         )

@@ -133,6 +133,7 @@ def ompl_path(
     setup.setPlanner(geometric.RRTConnect(information))
     setup.solve(base.PlannerTerminationCondition(lambda: next(looked) > 10 * _MOST))
     path = setup.getSolutionPath()
-    never = base.PlannerTerminationCondition(lambda: False)
-    geometric.PathSimplifier(information).simplify(path, never)
+    most = next(looked) + _MOST // 3
+    over = base.PlannerTerminationCondition(lambda: next(looked) > most)
+    geometric.PathSimplifier(information).simplify(path, over)
     return np.array([[state[j] for j in joints] for state in path.getStates()])
