@@ -10,12 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil
 from numbers import Integral
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from ..arguments import checked
+from ..annotation import real_array
+from ..arguments import LATER, checked
 from ..errors import InputError, UnknownNameError
 
 Fitness = Callable[[np.ndarray], np.ndarray]
@@ -223,7 +224,7 @@ LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, s
 @checked
 def evolve(
     fitness: Fitness,
-    box: np.ndarray,
+    box: Annotated[np.ndarray, LATER],
     settings: GeneticSettings,
     rng: np.random.Generator,
     *,
@@ -291,12 +292,14 @@ def checked_box(box: np.ndarray) -> np.ndarray:
     InputError
         See :func:`evolve`.
     """
-    array = np.asarray(box, dtype=float)
+    expected = "finite rows [lower, upper], lower < upper"
+    try:
+        array = real_array(box)
+    except (TypeError, ValueError):
+        raise InputError("search", "box", box, expected) from None
     good = array.ndim == 2 and array.shape[1:] == (2,) and np.isfinite(array).all()
     if not good or (array[:, 0] >= array[:, 1]).any():
-        raise InputError(
-            "search", "box", array.tolist(), "finite rows [lower, upper], lower < upper"
-        )
+        raise InputError("search", "box", array.tolist(), expected)
     return array
 
 
