@@ -31,7 +31,7 @@ class PlacedArm:
 
     name: str
     arm: Arm
-    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
+    placement: Annotated[pin.SE3, LATER] = field(default_factory=pin.SE3.Identity)
     start: Annotated[np.ndarray, LATER] | None = None
     goal: Annotated[np.ndarray, LATER] | None = None
 

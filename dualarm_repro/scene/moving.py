@@ -15,7 +15,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from ..arguments import Shape, checked
+from ..arguments import LATER, Shape, checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
@@ -128,7 +128,7 @@ class PosePath(_Track):
 class MovingShape:
     """A shape, given in its own frame, whose frame follows a path."""
 
-    shape: Sphere | Capsule | Box | ConvexHull
+    shape: Annotated[Sphere | Capsule | Box | ConvexHull, LATER]
     path: PosePath
 
     def __post_init__(self) -> None:
@@ -146,7 +146,7 @@ class MovingArm:
 
     arm: Arm
     path: JointPath
-    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
+    placement: Annotated[pin.SE3, LATER] = field(default_factory=pin.SE3.Identity)
 
     def __post_init__(self) -> None:
         if not isinstance(self.arm, Arm):

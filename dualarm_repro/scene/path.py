@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import MOST, Positive, checked
+from ..arguments import MOST, checked
 from ..errors import InputError
 from .moving import JointPath
 from .quantities import positive
@@ -13,7 +13,7 @@ from .quantities import positive
 
 @checked
 def densify(
-    path: ArrayLike, max_step: Positive, index: ArrayLike | None = None
+    path: ArrayLike, max_step: float, index: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Insert samples until no joint moves more than ``max_step`` between neighbours.
 

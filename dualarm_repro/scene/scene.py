@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import LATER, checked
 from ..arms.arm import Arm
 from ..arms.poses import check_configurations
 from ..errors import ConfigurationError, InputError, UnknownNameError
@@ -53,7 +55,7 @@ class Scene:
     """
 
     arms: Sequence[PlacedArm]
-    obstacles: Mapping[str, Shape | Sequence[Shape]] = field(default_factory=dict)
+    obstacles: Annotated[Mapping[str, Shape | Sequence[Shape]], LATER] = field(default_factory=dict)
     moving: Mapping[str, MovingShape | MovingArm] = field(default_factory=dict)
     floor: float | None = None
     exempt: Collection[tuple[str, str]] = ()
@@ -70,8 +72,9 @@ class Scene:
         if self.floor is not None:
             names.append(FLOOR)
             solids[FLOOR] = HalfSpace((0.0, 0.0, 1.0), self.floor)
+        times = Counter(names)
         for name in names:
-            if names.count(name) > 1 or not name or "/" in name:
+            if not isinstance(name, str) or times[name] > 1 or not name or "/" in name:
                 raise InputError("Scene", "name", name, "distinct names without a slash")
         if not self.arms:
             raise InputError("Scene", "arms", self.arms, "at least one arm")

@@ -17,7 +17,6 @@ from .hull import ConvexHull
 from .quantities import array_of, positive, rotation3, unit3, vector3
 
 
-@checked
 @dataclass(frozen=True, eq=False)
 class Sphere:
     """|x - center| <= radius; center (3,) and radius in metres."""
@@ -48,7 +47,6 @@ class Sphere:
         return coal.Sphere(self.radius), coal.Transform3s(np.eye(3), self.center)
 
 
-@checked
 @dataclass(frozen=True, eq=False)
 class Capsule:
     """Points within ``radius`` of the segment ``start`` to ``end`` [m], which may have length 0."""
@@ -82,7 +80,6 @@ class Capsule:
         return shape, coal.Transform3s(placement.rotation, placement.translation)
 
 
-@checked
 @dataclass(frozen=True, eq=False)
 class Box:
     """|R^T (x - center)|_i <= size_i / 2: edge lengths ``size`` (3,) [m], ``rotation`` R (3, 3)."""
@@ -125,7 +122,6 @@ class Box:
         return coal.Box(*self.size), coal.Transform3s(self.rotation, self.center)
 
 
-@checked
 @dataclass(frozen=True, eq=False)
 class HalfSpace:
     """normal . x <= offset: everything below a plane.

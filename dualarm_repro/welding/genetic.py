@@ -11,11 +11,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
 from numbers import Integral
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..arguments import checked
+from ..annotation import real_array
+from ..arguments import LATER, checked
 from ..errors import InputError, UnknownNameError
 from .generation import (
     crossed,
@@ -244,7 +245,7 @@ LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, s
 @checked
 def evolve(
     fitness: Fitness,
-    box: np.ndarray,
+    box: Annotated[np.ndarray, LATER],
     settings: GeneticSettings,
     rng: np.random.Generator,
     *,
@@ -312,12 +313,14 @@ def checked_box(box: np.ndarray) -> np.ndarray:
     InputError
         See :func:`evolve`.
     """
-    array = np.asarray(box, dtype=float)
+    expected = "finite rows [lower, upper], lower < upper"
+    try:
+        array = real_array(box)
+    except (TypeError, ValueError):
+        raise InputError("search", "box", box, expected) from None
     good = array.ndim == 2 and array.shape[1:] == (2,) and np.isfinite(array).all()
     if not good or (array[:, 0] >= array[:, 1]).any():
-        raise InputError(
-            "search", "box", array.tolist(), "finite rows [lower, upper], lower < upper"
-        )
+        raise InputError("search", "box", array.tolist(), expected)
     return array
 
 
