@@ -41,10 +41,12 @@ def _number(context: Any, bits: Any) -> Any:
     )
 
 
-@intrinsic
-def _fma(context: Any, a: Any, b: Any, c: Any) -> Any:
-    """a b + c, rounded once."""
+def _rounded_once(context: Any, a: Any, b: Any, c: Any) -> Any:
     return types.float64(a, b, c), lambda _, builder, __, parts: builder.fma(*parts)
+
+
+#: a b + c, rounded once.
+_fma: Any = intrinsic(_rounded_once)
 
 
 @kernel

@@ -43,6 +43,7 @@ def near_point(a, p, apart, way, halves):
 
 @inlined
 def _clamp(s):
+    """s, within [-1, 1]."""
     return min(max(s, -1.0), 1.0)
 
 

@@ -1,5 +1,7 @@
 """Distances of links of one arm by their exact shapes, where hulls overlap that are clear."""
 
+from sys import modules
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -93,7 +95,7 @@ def test_hulls_alone_refuse_what_the_shapes_allow(arm, monkeypatch):
     q = np.array([[0.15, 0.0]])
     assert distances(scene, q).min() > 0.0
     with monkeypatch.context() as patch:
-        patch.setattr("dualarm_repro.scene.clearance.refine", hull_pairs.refine)
+        patch.setattr(modules["dualarm_repro.scene.clearance"], "refine", hull_pairs.refine)
         alone = distances(scene, q)
     assert (distances(scene, q) >= alone).all()
     raised = distances(scene, q) > alone

@@ -8,8 +8,8 @@ from functools import cache, cached_property
 from hashlib import sha256
 from typing import Any
 
-import numba
 import numpy as np
+from numba.core import config
 
 from ...kernel import kernel
 from ..trigonometry import FAR, sincos
@@ -19,6 +19,7 @@ from .simd import STORES
 from .source import block_function, plain_function
 from .structure import Structure
 
+_NUMBA: Any = config
 Carried = tuple[tuple[int, Vector], ...]
 #: Function of flat configurations, constants and a matrix that takes the results.
 Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
@@ -62,7 +63,7 @@ class Generated:
         Its name holds the digest of its text, under which its machine code is kept. Where numba is
         switched off it is a function that does nothing and says so.
         """
-        if numba.config.DISABLE_JIT:
+        if _NUMBA.DISABLE_JIT:
             return nothing
         text = block_function("block", self._program, self._results, self._structure)
         name = f"{self.name}_{sha256(text.encode()).hexdigest()[:16]}"
@@ -82,7 +83,7 @@ class Generated:
             flat = flat.copy()
         if not self.compiled(flat, constants, out.reshape(-1, shape[-1])):
             far = np.ones(len(q), dtype=bool)
-            if not numba.config.DISABLE_JIT:
+            if not _NUMBA.DISABLE_JIT:
                 far = ~(np.abs(q) <= FAR).all(axis=1)
             out[far] = self.by_numpy(q[far], constants).reshape(-1, *shape)
         return out
