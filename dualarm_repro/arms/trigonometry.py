@@ -25,17 +25,13 @@ _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to t
 FAR = 1.6e6  #: [rad] from where on k times the part is not exact
 
 
-@intrinsic
-def _bits(context: Any, x: Any) -> Any:
-    """The bits of a float64 as an integer."""
+def _as_integer(context: Any, x: Any) -> Any:
     return types.int64(types.float64), lambda _, builder, __, parts: builder.bitcast(
         parts[0], ir.IntType(64)
     )
 
 
-@intrinsic
-def _number(context: Any, bits: Any) -> Any:
-    """The float64 of these bits."""
+def _as_float(context: Any, bits: Any) -> Any:
     return types.float64(types.int64), lambda _, builder, __, parts: builder.bitcast(
         parts[0], ir.DoubleType()
     )
@@ -45,7 +41,9 @@ def _rounded_once(context: Any, a: Any, b: Any, c: Any) -> Any:
     return types.float64(a, b, c), lambda _, builder, __, parts: builder.fma(*parts)
 
 
-#: a b + c, rounded once.
+#: The bits of a float64 as an integer, the float64 of bits, and a b + c rounded once.
+_bits: Any = intrinsic(_as_integer)
+_number: Any = intrinsic(_as_float)
 _fma: Any = intrinsic(_rounded_once)
 
 

@@ -50,9 +50,9 @@ def test_loading():
 
 def test_contact():
     one, two, three = cells(public_tables.contact_page())
-    assert one == ["one", "accepted", "200", "1.5", "0", "4", "found", "0.80", "12.3", "45.6"]
+    assert one == ["one", "accepted", "200", "1.5", "0", "4", "found", "0.8", "12.3", "45.6"]
     assert (two[1], two[6]) == ("refused", "none found")
-    assert (three[1], three[6], three[7]) == ("touches", "touches itself", "0.80")
+    assert (three[1], three[6], three[7]) == ("touches", "touches itself", "0.8")
 
 
 def test_refused():
