@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import OPEN, checked
 from ..errors import DualArmError, InputError, shorten
 from .parts import ProgramParts, shapes
 
@@ -45,8 +45,8 @@ class QuadraticProgram:
     b: np.ndarray
     G: np.ndarray
     h: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    lower: Annotated[np.ndarray, OPEN]
+    upper: Annotated[np.ndarray, OPEN]
 
     if TYPE_CHECKING:  # anything that makes an array is taken
 
