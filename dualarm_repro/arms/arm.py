@@ -12,6 +12,7 @@ import pinocchio as pin
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import ConfigurationError, UnsupportedArmError
 from . import dh, kernels, sliding
 from .capsules import capsule_geometry
@@ -81,6 +82,7 @@ class Arm(JointSpace):
         self.velocity_limit = model.velocityLimit.copy()
 
     @classmethod
+    @checked
     def from_dh(cls, name: str, robot: DHRobot, shapes: Shapes | None = None) -> Arm:
         """Arm of a DH table; one without capsules has shapes only if they are to be ``none``."""
         capsules = partial(capsule_geometry, robot.capsules)
@@ -91,6 +93,7 @@ class Arm(JointSpace):
         model = build_model(robot, name)
         return cls(name, robot.title, model, model.getFrameId(FLANGE), capsules, robot)
 
+    @checked
     def reshaped(
         self,
         geometry: Callable[[], pin.GeometryModel],
@@ -333,6 +336,7 @@ class Arm(JointSpace):
         """
         return dh.link_transforms(self._dh_robot("symbolic link transforms"))
 
+    @checked
     def mirrored(self, name: str | None = None) -> Arm:
         """The reflection M T(q) M at -q, M = diag(1, -1, 1, 1), of a DH arm.
 

@@ -14,6 +14,8 @@ from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings
 from .system import ArmSystem
 
+#: Most steps of a run, all of which are kept.
+MOST_STEPS = 2_000_000
 #: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
 #: Weight of the slack on the task against |x|^2 / 2.
@@ -90,6 +92,8 @@ def checked_run(
     if not (isinstance(cycles, int) and cycles > 0):
         raise InputError("simulate", "cycles", cycles, "a positive whole number")
     steps = round(cycles * circles.duration / dt)
+    if steps > MOST_STEPS:
+        raise InputError("simulate", "dt", dt, f"a step with at most {MOST_STEPS} in all")
     return system.configuration(q0), settings.numbers(), steps
 
 
