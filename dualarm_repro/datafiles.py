@@ -95,7 +95,7 @@ _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping
 
 
 #: Most values that a file may stand for once its aliases are written out.
-_LARGEST = 1_000_000
+_LARGEST = 500_000
 _VALUES = (ValueError, TypeError, KeyError, AttributeError, OverflowError)
 
 
@@ -108,7 +108,10 @@ def _content(text: str) -> Any:
             return None
         if _written_out(node, {}) > _LARGEST:
             raise yaml.composer.ComposerError(
-                None, None, f"aliases that stand for more than {_LARGEST} values", node.start_mark
+                None,
+                None,
+                f"aliases that multiply: at most {_LARGEST} values are read",
+                node.start_mark,
             )
         return loader.construct_document(node)
     finally:

@@ -11,6 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import ConfigurationError, UnsupportedArmError
 from .capsules import capsule_geometry
 from .chain import chain_of
@@ -83,6 +84,7 @@ class Arm(MovingChain):
         self.velocity_limit = model.velocityLimit.copy()
 
     @classmethod
+    @checked
     def from_dh(cls, name: str, robot: DHRobot, shapes: Shapes | None = None) -> Arm:
         """Arm of a DH table; one without capsules has shapes only if they are to be ``none``."""
         capsules = partial(capsule_geometry, robot.capsules)
@@ -93,6 +95,7 @@ class Arm(MovingChain):
         model = build_model(robot, name)
         return cls(name, robot.title, model, model.getFrameId(FLANGE), capsules, robot)
 
+    @checked
     def reshaped(
         self,
         geometry: Callable[[], pin.GeometryModel],
@@ -251,6 +254,7 @@ class Arm(MovingChain):
 
         return link_transforms(self._dh_robot("symbolic link transforms"))
 
+    @checked
     def mirrored(self, name: str | None = None) -> Arm:
         """The reflection M T(q) M at -q, M = diag(1, -1, 1, 1), of a DH arm.
 

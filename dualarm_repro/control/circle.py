@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pydantic import Field
 
 from ..arguments import Positive, Shape, checked
 from ..errors import InputError
@@ -122,7 +123,7 @@ class Circles:
         return CircleNumbers(self.centre, self.u, self.v, float(self.duration), code(self.law))
 
     @checked
-    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+    def at(self, t: Annotated[float, Field(ge=-1e9, le=1e9)]) -> tuple[np.ndarray, np.ndarray]:
         """Positions and velocities (A, 3) at a time; it repeats every ``duration``."""
         position, velocity = np.empty_like(self.centre), np.empty_like(self.centre)
         follow(self.numbers(), float(t), position, velocity)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arguments import Positive, checked
+from ..errors import InputError
 
 #: Tip error up to which a path counts as followed [m]; ten times the repeatability of small arms.
 FOLLOWED = 1e-3
@@ -132,5 +133,9 @@ class Motion:
     @checked
     def drift(self, period: Positive) -> np.ndarray:
         """max_i |q_i(k T) - q_i(0)| after each full period (k,) [rad]."""
-        every = round(period / self.dt)
+        steps = period / self.dt
+        if not 0.5 < steps < len(self.q):
+            expected = f"from one step, {self.dt:g}, to the {len(self.q)} of the motion [s]"
+            raise InputError("Motion.drift", "period", period, expected)
+        every = round(steps)
         return np.abs(self.q[every::every] - self.q[0]).max(axis=1)

@@ -17,6 +17,8 @@ from .settings import ControllerNumbers, ControllerSettings
 from .solvers import second_opinion
 from .system import ArmSystem
 
+#: Most steps of a run, all of which are kept.
+MOST_STEPS = 2_000_000
 #: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
 _PORTION = 2000  # steps between which a run can be stopped, tens of milliseconds
@@ -105,6 +107,8 @@ def checked_run(
     if not (isinstance(cycles, int) and cycles > 0):
         raise InputError("simulate", "cycles", cycles, "a positive whole number")
     steps = round(cycles * circles.duration / dt)
+    if steps > MOST_STEPS:
+        raise InputError("simulate", "dt", dt, f"a step with at most {MOST_STEPS} in all")
     return system.configuration(q0), settings.numbers(), steps
 
 

@@ -127,6 +127,9 @@ def blocks(count: int, size: int) -> Iterator[slice]:
 
 
 def _times(time: ArrayLike, count: int) -> np.ndarray:
-    shape = np.shape(time) and (count,)
-    time = array_of("scene", "time", time, shape, f"a finite number, or {count} of them")
+    single = isinstance(time, int | float)
+    expected = f"a finite number, or {count} of them"
+    if not single and getattr(time, "shape", None) == ():
+        single = True
+    time = array_of("scene", "time", time, () if single else (count,), expected)
     return np.broadcast_to(time, count)

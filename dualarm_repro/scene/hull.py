@@ -107,6 +107,8 @@ def circle_points(
     """
     angle = 2 * np.pi * np.arange(count) / count
     axes = np.asarray(axes, dtype=float)
+    if not (np.abs(axes).max(axis=1, initial=0.0) > 0.0).all():
+        raise InputError("circle_points", "axes", axes, "directions that are not zero")
     x = np.array([perpendicular(axis) for axis in axes])
     y = np.cross(axes, x) / np.linalg.norm(axes, axis=1, keepdims=True)
     ring = np.cos(angle)[:, None] * x[:, None] + np.sin(angle)[:, None] * y[:, None]

@@ -22,6 +22,7 @@ from .hull import ConvexHull
 from .quantities import array_of, finite_pose
 from .shapes import Box, Capsule, Sphere
 
+_SHORTEST = 1e-100  # between two indices, so that one over it is a number
 #: Times (N,).
 Times = Annotated[np.ndarray, Shape("N")]
 
@@ -35,7 +36,7 @@ class _Track:
         expected = f"{count} finite numbers in increasing order"
         index = np.arange(count) if index is None else index
         self.index = array_of(source, "index", index, (count,), expected)
-        if not (np.diff(self.index) > 0).all():
+        if not (np.diff(self.index) > _SHORTEST).all():
             raise InputError(source, "index", index, expected)
 
     def _locate(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import MOST, checked
+from ..arguments import LATER, MOST, checked
 from ..errors import InputError
 from .moving import JointPath
 from .quantities import positive
@@ -13,7 +15,7 @@ from .quantities import positive
 
 @checked
 def densify(
-    path: ArrayLike, max_step: float, index: ArrayLike | None = None
+    path: ArrayLike, max_step: Annotated[float, LATER], index: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Insert samples until no joint moves more than ``max_step`` between neighbours.
 

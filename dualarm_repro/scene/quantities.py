@@ -6,7 +6,6 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from ..annotation import real_array
 from ..errors import InputError
 
 
@@ -54,8 +53,8 @@ def array_of(
 ) -> np.ndarray:
     """Finite numbers of a shape as a read-only copy; None stands for any length."""
     try:
-        array = real_array(value).copy()
-    except (TypeError, ValueError):
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError, OverflowError):
         raise InputError(source, name, value, expected) from None
     fits = len(shape) == array.ndim and all(
         wanted in (None, length) for wanted, length in zip(shape, array.shape, strict=True)

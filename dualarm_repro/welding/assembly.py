@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
-from ..arguments import checked
+from ..arguments import Shape, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
@@ -88,7 +89,7 @@ class Tools:
 
 
 @checked
-def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
+def base_poses(matrices: Annotated[np.ndarray, Shape(3, 4, 4)], reading: str) -> np.ndarray:
     """Poses of the bases in the world from the matrices M that a document gives them.
 
     The product ^B_c T = ^B_w T ^w_c T needs ^B_w T: M^-1 if M is the pose of the base in the world
@@ -106,7 +107,13 @@ def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
     if reading not in BASE_READINGS:
         expected = f"one of {', '.join(BASE_READINGS)}"
         raise UnknownNameError("base_poses", "reading", reading, expected)
-    return matrices if reading == "inverted" else np.linalg.inv(matrices)
+    if reading == "inverted":
+        return matrices
+    try:
+        return np.linalg.inv(matrices)
+    except np.linalg.LinAlgError:
+        expected = "matrices that have an inverse"
+        raise InputError("base_poses", "matrices", matrices, expected) from None
 
 
 @checked

@@ -97,6 +97,9 @@ class Objective:
             case "inverse_volume":
                 if inverse is None:
                     raise InputError("objective", "inverse", None, "inverse volumes (..., 2, N)")
+                if inverse.shape[:-2] != w.shape[:-2]:
+                    expected = f"{(*w.shape[:-2], 2, w.shape[-1])}"
+                    raise InputError("objective", "shape of inverse", inverse.shape, expected)
                 beta = inverse[..., 0, :], inverse[..., 1, :]
             case "harmonic":
                 beta = 1.0 / tight, 1.0 / loose

@@ -9,7 +9,8 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import MASK, checked
+from ..annotation import real_array
+from ..arguments import MASK, Shape, checked
 from ..errors import InputError
 from ..scene.clearance import blocks as rows_of
 from .branches import Status, follow
@@ -55,8 +56,10 @@ class Jobs:
         return self.status == Status.FEASIBLE
 
     @checked
-    def select(self, mask: Annotated[np.ndarray, MASK]) -> Jobs:
+    def select(self, mask: Annotated[np.ndarray, MASK, Shape("P")]) -> Jobs:
         """The jobs where the mask (P,) is true."""
+        if len(mask) != len(self.status):
+            raise InputError("Jobs.select", "length of mask", len(mask), str(len(self.status)))
         return Jobs(**{name: values[mask] for name, values in vars(self).items()})
 
 
@@ -146,7 +149,10 @@ def solve_jobs(cell: Cell, separation: Separation, centres: np.ndarray) -> Jobs:
 
 
 def _positions(centres: ArrayLike) -> np.ndarray:
-    array = np.asarray(centres, dtype=float)
+    try:
+        array = real_array(centres)
+    except (TypeError, ValueError):
+        raise InputError("placement", "centres", centres, "finite positions, (P, 3) [m]") from None
     if array.ndim != 2 or array.shape[1] != 3 or not np.isfinite(array).all():
         raise InputError("placement", "centres", centres, "finite positions, shape (P, 3) [m]")
     return array

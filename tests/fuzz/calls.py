@@ -15,6 +15,10 @@ SLOW = {
 }
 
 
+#: Calls in which NaN has a meaning: a robot without a path, or what follows from it.
+MEANT = ("welding.Separation.", "welding.Placement.", "welding.Objective.", "welding.inverse")
+
+
 @cache
 def known():
     """The entries by name."""
@@ -25,6 +29,8 @@ def known():
 def usual(name):
     """Whether the answer to the valid arguments holds NaN, which then means something."""
     entry = known()[name]
+    if name.startswith(MEANT) or name.endswith((".from_dh", ".mirrored")):
+        return True
     return holds_nan(entry.function(**entry.arguments()))
 
 

@@ -142,7 +142,7 @@ def call(kind, seed):
     else:
         for _ in range(rng.integers(1, 3)):
             changed = _edited(changed, rng)
-    path = folder() / f"{kind}.{ending}"
+    path = folder() / f"changed-{kind}.{ending}"
     path.write_bytes(changed.encode("utf-8", "surrogatepass"))
     return (*judged(lambda: use(path)), changed)
 

@@ -67,7 +67,8 @@ def judged(call, nan_given=False, nan_allowed=False):
             text = str(error)
         except Exception as other:
             return "defect", f"{type(error).__name__} cannot be printed: {type(other).__name__}"
-        if "\n" in text or not text:
+        lines = getattr(error, "lines", [text])  # several faults are a line each
+        if not lines or any("\n" in line or not line for line in lines):
             return "defect", f"the message is no line: {text[:80]!r}"
         return ("refused", "") if len(text) < LINE else ("defect", f"{len(text)} letters")
     except Hang:

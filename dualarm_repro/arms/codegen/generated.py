@@ -112,13 +112,17 @@ def nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
     return False
 
 
+#: Squares up to here count as 0: their reciprocals would overflow.
+TINY = 1e-290
+
+
 def _reciprocals(x: np.ndarray) -> np.ndarray:
-    return np.divide(1.0, x, out=np.zeros_like(x), where=x > 0.0)
+    return np.divide(1.0, x, out=np.zeros_like(x), where=x > TINY)
 
 
 @kernel
 def _reciprocal(x):
-    return 1.0 / x if x > 0.0 else 0.0
+    return 1.0 / x if x > TINY else 0.0
 
 
 #: What the compiled loops refer to.

@@ -75,7 +75,7 @@ class NetworkSettings(Settings):
     )
 
     @checked
-    def numbers(self, dt: float | None = None) -> NetworkNumbers:
+    def numbers(self, dt: Positive | None = None) -> NetworkNumbers:
         """For the kernels; ``dt`` is the step of a solver of fixed step."""
         slope = SLOPE_AT_ZERO[self.activation]
         # Flat or vertical at zero there is no such limit; 1 / step is the linear one.

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
-from ...arguments import Number, checked
+from ...arguments import Number, Shape, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, PlacedArm, Scene
 from ...scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
@@ -77,7 +78,10 @@ class Obstacles:
 
     @checked
     def distances(
-        self, ends: np.ndarray, radius: np.ndarray, step: Number
+        self,
+        ends: Annotated[np.ndarray, Shape("N", "K", 2, 3)],
+        radius: Annotated[np.ndarray, Shape("K")],
+        step: Number,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """d, the nearest point of each control point, and grad d there.
 

@@ -12,6 +12,7 @@ from typing import Generic, Protocol, TypeVar
 import numpy as np
 
 from ...arguments import Number, checked
+from ...errors import ConfigurationError
 from ...scene.bodies import PlacedArm
 from ...scene.posing import cores_in
 from ..settings import Combination
@@ -82,11 +83,13 @@ class JointAttraction:
     @checked
     def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
+        _require_joints("JointAttraction", q, len(self.target))
         return 0.5 * self.gain * np.sum((q - self.target) ** 2, axis=-1)
 
     @checked
     def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
+        _require_joints("JointAttraction", q, len(self.target))
         return self.gain * (q - self.target)
 
 
@@ -199,3 +202,8 @@ class Sum(Generic[Parts]):
     def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         return sum((part.gradient(q, step) for part in self.parts), np.zeros_like(q))
+
+
+def _require_joints(source: str, q: np.ndarray, count: int) -> None:
+    if q.shape[-1:] != (count,):
+        raise ConfigurationError(source, "shape of q", q.shape, f"({count},), or rows of {count}")
