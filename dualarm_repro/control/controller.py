@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -49,7 +51,8 @@ class VelocityController:
         self._buffers = make_buffers(system.arrays, self._numbers)
         n, arms = system.nq, len(system.arms)
         self._work = make_work(n, 3 * arms, len(self._buffers.program.h))
-        self._step, self._distance = None, np.inf
+        self._step: Any = None
+        self._count, self._distance = 0, np.inf
         self._shapes = (n,), (arms, 3), (arms, 3)
         if home is not None:
             self._begin(system.configuration(home))

@@ -33,7 +33,7 @@ class StepType(types.StructRef):
     """Type of a :class:`Step`."""
 
 
-class Step(structref.StructRefProxy):  # type: ignore[misc]
+class Step(structref.StructRefProxy):
     """What stays from step to step as one argument: to hand over each array takes too long."""
 
 
