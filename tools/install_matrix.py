@@ -14,7 +14,8 @@ import json
 import shutil
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +40,7 @@ def tried(row: Row, uv: Path, wheel: Path, folder: Path, limit: float) -> dict[s
         python = install(row, uv, wheel, ROOT, environment, limit)
         found = _versions(python, environment)
         record |= {"versions_found": found}
-        passed = answers(python, row.extra, ROOT, environment, variables(environment))
+        passed = answers(python, row.extra, ROOT, environment, variables(environment), limit)
         return record | {"outcome": PASSED, "steps": passed}
     except InstallFailed as failure:
         return record | {"outcome": FAILED, "step": failure.step, "reason": failure.message}
@@ -70,6 +71,17 @@ def write(found: dict[str, dict[str, Any]], order: Sequence[Row]) -> None:
     STORED.write_text(text + "\n", encoding="utf-8")
 
 
+@contextmanager
+def _scratch(given: Path | None) -> Iterator[Path]:
+    """A folder that is there to stay if it was asked for."""
+    if given is not None:
+        given.mkdir(parents=True, exist_ok=True)
+        yield given.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix="installs-") as name:
+        yield Path(name)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the rows and store each as soon as it has ended."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -77,8 +89,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--resume", action="store_true", help="leave out what passed before")
     parser.add_argument("--list", action="store_true", help="list the rows and run nothing")
     parser.add_argument("--uv", type=Path, default=ROOT / ".boot" / "bin" / "uv")
-    parser.add_argument("--scratch", type=Path, help="folder for environments, a new one without")
-    parser.add_argument("--limit", type=float, default=900, help="seconds for an installation")
+    parser.add_argument(
+        "--scratch", type=Path, help="folder for environments and kernels; without, a new one"
+    )
+    parser.add_argument("--limit", type=float, default=900, help="seconds for each step")
     chosen = parser.parse_args(arguments)
     order = rows(list(project_table(ROOT)["optional-dependencies"]))
     found, names = stored(), {row.name for row in order}
@@ -90,8 +104,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     for name in set(found) - names:
         del found[name]
-    with tempfile.TemporaryDirectory(prefix="installs-", dir=chosen.scratch) as scratch:
-        wheel = build_wheel(ROOT, Path(scratch))
+    with _scratch(chosen.scratch) as scratch:
+        wheel = build_wheel(ROOT, scratch)
         for row in order:
             before = found.get(row.name, {})
             same = before.get("demands") == fingerprint(row, ROOT)
@@ -99,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 continue
             if chosen.resume and same and before.get("outcome") == PASSED:
                 continue
-            found[row.name] = tried(row, chosen.uv.resolve(), wheel, Path(scratch), chosen.limit)
+            found[row.name] = tried(row, chosen.uv.resolve(), wheel, scratch, chosen.limit)
             write(found, order)
             record = found[row.name]
             print(f"{row.name:24s}{record['outcome']:10s}{record.get('reason', '')}", flush=True)

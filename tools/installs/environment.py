@@ -78,10 +78,14 @@ def install(
 
 
 def variables(folder: Path) -> Mapping[str, str]:
-    """Environment variables of a process that has caches of its own and never saw the clone."""
+    """Environment variables of a process that has caches of its own and never saw the clone.
+
+    Compiled kernels lie beside the environments: their key holds the versions that made them, so
+    rows share only what the same versions compiled.
+    """
     known = ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME")
     kept = {name: value for name, value in os.environ.items() if name not in known}
-    own = {"DUALARM_CACHE": folder / "cache", "NUMBA_CACHE_DIR": folder / "kernels"}
+    own = {"DUALARM_CACHE": folder / "cache", "NUMBA_CACHE_DIR": folder.parent / "kernels"}
     return {**kept, **{name: str(path) for name, path in own.items()}, "MPLBACKEND": "agg"}
 
 

@@ -67,7 +67,12 @@ STEPS: Mapping[str, Callable[[Ask, Path], None]] = {
 
 
 def answers(
-    python: Path, extra: str, root: Path, folder: Path, environment: Mapping[str, str]
+    python: Path,
+    extra: str,
+    root: Path,
+    folder: Path,
+    environment: Mapping[str, str],
+    timeout: float,
 ) -> list[str]:
     """Names of the steps that an environment passed: all of them.
 
@@ -79,7 +84,7 @@ def answers(
     passed: list[str] = []
 
     def asking(step: str) -> Ask:
-        return lambda *arguments: run(step, [python, *arguments], folder, environment)
+        return lambda *arguments: run(step, [python, *arguments], folder, environment, timeout)
 
     _installed(asking("import"), root)
     passed.append("import")
