@@ -3,7 +3,8 @@ FROM python:3.11-slim-bookworm AS base
 RUN apt-get update \
  && apt-get install -y --no-install-recommends git make \
  && rm -rf /var/lib/apt/lists/* \
- && useradd --create-home reader
+ && useradd --create-home reader \
+ && install -d -o reader -g reader /opt/dualarm_repro
 USER reader
 
 FROM base AS book

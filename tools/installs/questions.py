@@ -8,8 +8,9 @@ from pathlib import Path
 
 from .environment import InstallFailed, run
 
-#: An item whose checker runs kinematics, sympy and a figure, and takes seconds.
-ITEM = "xue.tab01"
+#: An item whose checker runs symbolic and compiled kinematics in seconds, and the items listed.
+ITEM = "xue.eq02"
+LISTED = ("--paper", "xue", "--kind", "equation")
 SCENE = "example_tasks.yaml"
 #: Modules that show that an extra brought what it is for.
 MODULES: Mapping[str, tuple[str, ...]] = {
@@ -30,7 +31,9 @@ def _installed(ask: Ask, root: Path) -> None:
 
 
 def _listed(ask: Ask, _: Path) -> None:
-    if not any(entry["id"] == ITEM for entry in json.loads(_dualarm(ask, "list", "--json"))):
+    if not any(
+        entry["id"] == ITEM for entry in json.loads(_dualarm(ask, "list", *LISTED, "--json"))
+    ):
         raise InstallFailed("list", f"{ITEM} is not listed")
 
 
