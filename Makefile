@@ -16,7 +16,7 @@ export UV_NATIVE_TLS := 1
 .PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger install-matrix supply-chain supply-chain-check results arms metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
-	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-19s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
 

@@ -54,7 +54,6 @@ PATTERNS: Mapping[str, re.Pattern[str]] = {
 KNOWN: Mapping[tuple[str, str], str] = {
     ("tests/book/test_check_book.py", "a path of one machine"): "what the checker has to find",
     ("tests/ledger/test_trust.py", "a path of one machine"): "what the report has to leave out",
-    ("tests/project/test_leaks.py", "a path of one machine"): "what this checker has to find",
     ("tools/check_leaks.py", "a setting of a package index"): "the pattern itself",
 }
 #: Longer lines are data: a picture in text, a compressed script.

@@ -64,8 +64,12 @@ def stored() -> dict[str, dict[str, Any]]:
 
 
 def write(found: dict[str, dict[str, Any]], order: Sequence[Row]) -> None:
-    """Store rows in the order of the matrix, with counts."""
-    ordered = [found[row.name] for row in order if row.name in found]
+    """Store rows in the order of the matrix, with counts; those not tried yet say so."""
+    untried = {"outcome": NOT_RUN, "reason": "not tried yet"}
+    ordered = [
+        found.get(row.name) or row.record | {"demands": fingerprint(row, ROOT)} | untried
+        for row in order
+    ]
     counts = {o: sum(r["outcome"] == o for r in ordered) for o in (PASSED, FAILED, NOT_RUN)}
     text = json.dumps({"counts": counts, "rows": ordered}, indent=1, ensure_ascii=False)
     STORED.write_text(text + "\n", encoding="utf-8")
