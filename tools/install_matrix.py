@@ -96,7 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--scratch", type=Path, help="folder for environments and kernels; without, a new one"
     )
-    parser.add_argument("--limit", type=float, default=900, help="seconds for each step")
+    parser.add_argument(
+        "--limit", type=float, default=900, help="seconds of computing for each step"
+    )
     chosen = parser.parse_args(arguments)
     order = rows(list(project_table(ROOT)["optional-dependencies"]))
     found, names = stored(), {row.name for row in order}

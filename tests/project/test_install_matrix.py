@@ -89,8 +89,10 @@ def test_a_command_that_fails_or_hangs_says_why(tmp_path):
     failing = [sys.executable, "-c", "raise SystemExit('see http://somewhere/x and /a/b/c/d')"]
     with pytest.raises(InstallFailed, match=r"exit code 1: see \(…\) and \(…\)"):
         run("plan", failing, tmp_path, {})
-    with pytest.raises(InstallFailed, match=r"still running after 0\.2 s"):
-        run("plan", [sys.executable, "-c", "import time; time.sleep(9)"], tmp_path, {}, 0.2)
+    with pytest.raises(InstallFailed, match=r"still running after 0\.8 s"):
+        run("plan", [sys.executable, "-c", "import time; time.sleep(99)"], tmp_path, {}, 0.1)
+    with pytest.raises(InstallFailed, match="more than 1 s of computing"):
+        run("plan", [sys.executable, "-c", "while True: pass"], tmp_path, {}, 1)
 
 
 def test_the_clone_itself_is_no_install(root, tmp_path):
