@@ -92,7 +92,7 @@ def test_a_command_that_fails_or_hangs_says_why(tmp_path):
     with pytest.raises(InstallFailed, match=r"still running after 0\.8 s"):
         run("plan", [sys.executable, "-c", "import time; time.sleep(99)"], tmp_path, {}, 0.1)
     # by its own computing, or by the clock where the machine gives it next to none
-    with pytest.raises(InstallFailed, match="more than 1 s of computing|still running after 8 s"):
+    with pytest.raises(InstallFailed, match=r"more than 1 s of computing|still running after 8 s"):
         run("plan", [sys.executable, "-c", "while True: pass"], tmp_path, {}, 1)
 
 
