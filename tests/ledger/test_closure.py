@@ -170,8 +170,8 @@ def test_an_edited_robot_makes_every_study_of_it_stale(monkeypatch, tmp_path):
 
 def test_versions_reach_solvers_and_robots():
     every = versions(graph().external(graph().files))
-    for name in ("numpy", "pin", "coal", "llvmlite", "daqp", "proxsuite", "piqp", "quadprog",
-                 "clarabel", "pymoo", "cma", "example-robot-data-loaders"):  # fmt: skip
+    for name in ("numpy", "pin", "coal", "llvmlite", "daqp", "proxsuite", "piqp", "clarabel",
+                 "pymoo", "cma", "example-robot-data-loaders"):  # fmt: skip
         assert every.get(name, "absent") != "absent", name
     assert "matplotlib" not in closure([load().checkers["xue.eq02"].compute]).versions
 

@@ -53,6 +53,7 @@ def test_one_joint_takes_the_time_of_a_trapezoid(scene, way, acceleration):
     bang = 2.0 * np.sqrt(way / acceleration)
     right = bang if acceleration * bang / 2.0 <= speed else way / speed + speed / acceleration
     found = timed(scene, one_joint(scene, way), speed=0.5, acceleration=acceleration)
+    # limits are kept at the points of a grid, never exceeded
     assert found.duration == pytest.approx(right, rel=0.03)
     assert found.duration >= right * (1 - 1e-3)
 

@@ -23,7 +23,7 @@ def test_a_row_of_success():
     assert (row["planner %"], row["true %"], row["of"]) == (50.0, 25.0, 4)
     assert row["displaced-goal"] == row["midway-minimum"] == 1
     share = judged_share(table, "x", "truth")
-    assert row["true low %"] == pytest.approx(100 * share.low, abs=0.05)
+    assert row["true low %"] == pytest.approx(100 * share.low, abs=0.05)  # shown to 0.1 %
     assert "midway-minimum" not in success_row(table.drop(columns="x_failure"), "x")
 
 

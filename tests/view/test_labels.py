@@ -33,7 +33,7 @@ def test_names_of_curves_that_end_together_are_apart_and_in_order(ax):
     assert faults(ax.figure) == []
     names = {text.get_text(): text.get_position()[1] for text in ax.texts}
     assert names["ends at 0.49"] < names["ends at 0.5"] < names["ends at 0.52"]
-    assert names["ends at 0.02"] == pytest.approx(0.02, abs=0.05)
+    assert names["ends at 0.02"] == pytest.approx(0.02)
 
 
 def test_names_of_near_points_are_apart_and_within_the_axes(ax):
