@@ -50,27 +50,28 @@ def names() -> list[str]:
 
 
 def curves() -> list[dict[str, object]]:
-    """Every curve, measured in a fresh process, so that memory of one is not counted in another.
+    """Every curve: times in one fresh process, and peak memory of ours alone in another.
 
     Raises
     ------
     RuntimeError
         A curve could not be measured.
     """
-    found = []
-    for name in names():
-        made = subprocess.run([sys.executable, __file__, name], capture_output=True, text=True)
-        if made.returncode:
-            raise RuntimeError(f"curve {name}: {made.stderr.strip().splitlines()[-1]}")
-        found.append(json.loads(made.stdout.splitlines()[-1]))
-    return found
+    return [{**_child(name, "times"), "peak_mb": _child(name, "memory")} for name in names()]
 
 
-def measured(title: str, x: str, series: Sequence[Series]) -> dict[str, object]:
-    """Median seconds with quartiles of every series at each of its sizes, and the peak of resident
-    memory [MB] that the process had reached when all were timed at a size."""
+def _child(name: str, what: str) -> dict[str, object]:
+    made = subprocess.run(
+        [sys.executable, __file__, name, what], stdout=subprocess.PIPE, stderr=None, text=True
+    )
+    if made.returncode:
+        raise RuntimeError(f"growth curve {name}, {what}: exit code {made.returncode}")
+    return dict(json.loads(made.stdout.splitlines()[-1]))
+
+
+def times(title: str, x: str, series: Sequence[Series]) -> dict[str, object]:
+    """Median wall and CPU seconds of a call, with quartiles, of every series at each size."""
     points: dict[str, list[dict[str, object]]] = {one.name: [] for one in series}
-    peak: dict[str, float] = {}
     for size in sorted({size for one in series for size in one.sizes}):
         rows = [
             Row(str(size), one.name, one.prepare(size), 1, rounds=one.rounds)
@@ -83,14 +84,24 @@ def measured(title: str, x: str, series: Sequence[Series]) -> dict[str, object]:
                 {"x": size, "seconds": wall.median, "quartiles": [wall.low, wall.high],
                  "cpu_seconds": timing.cpu.median}
             )  # fmt: skip
-        peak[str(size)] = _peak()
         del rows, timing  # before arrays of the next size are made
     return {
         "title": title,
         "x": x,
         "series": [{"name": s.name, "limit": s.limit, "points": points[s.name]} for s in series],
-        "peak_mb": peak,
     }
+
+
+def memory(series: Sequence[Series]) -> dict[str, float]:
+    """Peak of resident memory [MB], interpreter and libraries included, by size: what the process
+    has reached when ours, the first series, was called once at each size up to it."""
+    ours, peak = series[0], {}
+    for size in ours.sizes:
+        call = ours.prepare(size)
+        call()
+        peak[str(size)] = _peak()
+        del call
+    return peak
 
 
 def _peak() -> float:
@@ -98,12 +109,15 @@ def _peak() -> float:
     return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6, 1)
 
 
-def main(name: str) -> None:
+def main(name: str, what: str) -> None:
     """Measure one curve and print it as one line of JSON."""
     curve = import_module(f"curves.{name}")
-    print(json.dumps({"name": name, **measured(curve.TITLE, curve.X, curve.series())}))
+    if what == "memory":
+        print(json.dumps(memory(curve.series()) if getattr(curve, "MEMORY", True) else {}))
+    else:
+        print(json.dumps({"name": name, **times(curve.TITLE, curve.X, curve.series())}))
 
 
 if __name__ == "__main__":
     sys.path.append(str(Path(__file__).resolve().parents[1]))
-    main(sys.argv[1])
+    main(*sys.argv[1:])

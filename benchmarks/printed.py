@@ -60,11 +60,11 @@ def _claims(claims: list[dict[str, Any]]) -> Table:
         table.add_column(head, justify="right")
     for claim in claims:
         sign = ">=" if claim["kind"] == "faster" else "<="
-        unit = " s" if claim["kind"] == "seconds" else "x"
+        unit = {"seconds": " s", "megabytes": " MB"}.get(claim["kind"], "x")
         table.add_row(
             claim["text"],
             claim["suite"],
-            claim["reason"] or f"{claim['value']:.3g}{unit}",
+            claim["reason"] or f"{claim['value']:.4g}{unit}",
             f"{sign} {claim['gate']:g}{unit}",
             "" if claim["goal"] is None else f"{sign} {claim['goal']:g}{unit}",
             {True: "yes", False: "NO", None: "?"}[claim["gate_holds"]],

@@ -28,6 +28,7 @@ def main() -> int:
         os.environ["NUMBA_NUM_THREADS"] = "1"
 
     import growth
+    import growth_claims
     import suites
     from machine import load, machine
     from peers import missing, versions
@@ -45,6 +46,7 @@ def main() -> int:
     if options.growth:
         before = load()
         report["growth"] = growth.curves()
+        report["claims"] += growth_claims.judged(report["growth"])
         report["load"]["growth"] = [before, load()]
     if options.store:
         _store(report)
