@@ -19,6 +19,7 @@ from timing import Row, by_turns
 
 CURVES = Path(__file__).parent / "curves"
 ROUNDS, BUDGET = 7, 6.0  # at each size, [1, s]
+SHARE = BUDGET / 20.0  # of the seconds of a task of a suite
 
 
 @dataclass(frozen=True)
@@ -49,27 +50,36 @@ def names() -> list[str]:
     return sorted(path.stem for path in CURVES.glob("*.py"))
 
 
-def curves() -> list[dict[str, object]]:
+def curves(rounds: int = ROUNDS, budget: float = BUDGET) -> list[dict[str, object]]:
     """Every curve: times in one fresh process, and peak memory of ours alone in another.
+
+    Parameters
+    ----------
+    rounds, budget
+        At most so many rounds, and seconds, at each size.
 
     Raises
     ------
     RuntimeError
         A curve could not be measured.
     """
-    return [{**_child(name, "times"), "peak_mb": _child(name, "memory")} for name in names()]
+    return [
+        {**_child(name, "times", rounds, budget), "peak_mb": _child(name, "memory", 1, budget)}
+        for name in names()
+    ]
 
 
-def _child(name: str, what: str) -> dict[str, object]:
-    made = subprocess.run(
-        [sys.executable, __file__, name, what], stdout=subprocess.PIPE, stderr=None, text=True
-    )
+def _child(name: str, what: str, rounds: int, budget: float) -> dict[str, object]:
+    command = [sys.executable, __file__, name, what, str(rounds), str(budget)]
+    made = subprocess.run(command, stdout=subprocess.PIPE, stderr=None, text=True)
     if made.returncode:
         raise RuntimeError(f"growth curve {name}, {what}: exit code {made.returncode}")
     return dict(json.loads(made.stdout.splitlines()[-1]))
 
 
-def times(title: str, x: str, series: Sequence[Series]) -> dict[str, object]:
+def times(
+    title: str, x: str, series: Sequence[Series], rounds: int = ROUNDS, budget: float = BUDGET
+) -> dict[str, object]:
     """Median wall and CPU seconds of a call, with quartiles, of every series at each size."""
     points: dict[str, list[dict[str, object]]] = {one.name: [] for one in series}
     for size in sorted({size for one in series for size in one.sizes}):
@@ -78,7 +88,7 @@ def times(title: str, x: str, series: Sequence[Series]) -> dict[str, object]:
             for one in series
             if size in one.sizes
         ]
-        for timing in by_turns(rows, ROUNDS, BUDGET):
+        for timing in by_turns(rows, rounds, budget):
             wall = timing.wall
             points[timing.row.implementation].append(
                 {"x": size, "seconds": wall.median, "quartiles": [wall.low, wall.high],
@@ -109,15 +119,16 @@ def _peak() -> float:
     return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6, 1)
 
 
-def main(name: str, what: str) -> None:
+def main(name: str, what: str, rounds: int, budget: float) -> None:
     """Measure one curve and print it as one line of JSON."""
     curve = import_module(f"curves.{name}")
     if what == "memory":
         print(json.dumps(memory(curve.series()) if getattr(curve, "MEMORY", True) else {}))
-    else:
-        print(json.dumps({"name": name, **times(curve.TITLE, curve.X, curve.series())}))
+        return
+    found = times(curve.TITLE, curve.X, curve.series(), rounds, budget)
+    print(json.dumps({"name": name, **found}))
 
 
 if __name__ == "__main__":
     sys.path.append(str(Path(__file__).resolve().parents[1]))
-    main(*sys.argv[1:])
+    main(sys.argv[1], sys.argv[2], int(sys.argv[3]), float(sys.argv[4]))

@@ -45,9 +45,7 @@ def gain(points: Sequence[Mapping[str, Any]]) -> float | None:
     return spent[1] / spent[2] if {1, 2} <= spent.keys() else None
 
 
-def _entry(
-    text: str, curve: str, kind: str, value: float | None, gate: float
-) -> dict[str, object]:
+def _entry(text: str, curve: str, kind: str, value: float | None, gate: float) -> dict[str, object]:
     holds = None if value is None else (value >= gate if kind == "faster" else value <= gate)
     return {
         "suite": "growth", "text": text, "task": curve, "ours": "dualarm_repro", "peer": None,

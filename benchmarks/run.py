@@ -45,7 +45,9 @@ def main() -> int:
             report[key] += values
     if options.growth:
         before = load()
-        report["growth"] = growth.curves()
+        report["growth"] = growth.curves(
+            min(options.rounds, growth.ROUNDS), growth.SHARE * options.budget
+        )
         report["claims"] += growth_claims.judged(report["growth"])
         report["load"]["growth"] = [before, load()]
     if options.store:

@@ -1,0 +1,159 @@
+"""Figures of the stored run: claims against their gates, growth curves, start-up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from .benchmark_page import duration, verdict
+from .benchmark_run import BenchmarkRun, Claim, Curve, Series
+from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, WIDTH, house_style
+
+_ROW = 0.27  # height of a line of names [in]
+_MARKS = ("o", "s", "^", "D")
+_COLORS = (BLUE, ORANGE, GREEN, PURPLE)
+#: Series over N are told here, where a batch no longer fits into the caches.
+_TOLD = 100_000
+
+
+class Told(NamedTuple):
+    """A figure, its finding and its alternative text, as :func:`.cell.shown` takes them."""
+
+    figure: Any
+    finding: str
+    alt: str
+
+
+def claims_figure(run: BenchmarkRun) -> Told:
+    """How many times better than its gate each claim is; what is left of the line is missed."""
+    judged = [claim for claim in run.claims if claim.margin is not None]
+    missed = [claim for claim in judged if not claim.gate_holds]
+    reached = sum(claim.goal_holds is True for claim in judged)
+    with house_style():
+        figure, ax = plt.subplots(figsize=(WIDTH, 1.1 + _ROW * len(judged)))
+        ax.axvline(1.0, color=BLACK, lw=1.2)
+        for y, claim in enumerate(judged):
+            _claim(ax, y, claim)
+        ax.set(xscale="log", xlabel="times better than the gate (the line)")
+        ax.set_yticks(range(len(judged)), [claim.text for claim in judged])
+        ax.set_ylim(len(judged) - 0.4, -0.6)
+        ax.grid(axis="y", visible=False)
+    told = f"{len(judged) - len(missed)} of {len(judged)} gates hold"
+    goals = sum(claim.goal is not None for claim in judged)
+    named = f" Missed: {'; '.join(claim.text for claim in missed)}." if missed else ""
+    open_ones = sum(claim.margin is None for claim in run.claims)
+    unknown = f" {open_ones} more claims could not be measured." if open_ones else ""
+    finding = f"{told}, and {reached} of {goals} goals are reached.{named}{unknown}"
+    marks = "Filled circles: the gate holds; crosses: it is missed; open diamonds: the goal."
+    spread = ", ".join(f"{c.text}: {c.margin:.2g} times, {verdict(c)}" for c in judged)
+    return Told(figure, f"{finding} {marks}", f"{told}. Margin over the gate: {spread}.")
+
+
+def _claim(ax: Any, y: float, claim: Claim) -> None:
+    holds = bool(claim.gate_holds)
+    color, mark = (BLUE, "o") if holds else (RED, "X")
+    ax.plot([1.0, claim.margin], [y, y], color=color, lw=1.5, alpha=0.6)
+    ax.plot(claim.margin, y, mark, color=color, ms=7)
+    if claim.goal is not None:
+        beyond = claim.goal / claim.gate if claim.kind == "faster" else claim.gate / claim.goal
+        ax.plot(beyond, y, "D", mfc="none", mec=BLACK, ms=6)
+
+
+def growth_figure(curve: Curve, per_item: bool = True) -> Told:
+    """Time over size with quartiles, of an item or of a whole call; limits of the machine are
+    dashed."""
+    with house_style():
+        figure, ax = plt.subplots(figsize=(WIDTH, 3.6))
+        drawn = iter(zip(_MARKS, _COLORS, strict=True))
+        for series in curve.series:
+            _line(ax, series, per_item, ("", BLACK) if series.limit else next(drawn))
+        scale = "log" if _spread(curve) else "linear"
+        ax.set(xscale=scale, yscale="log" if per_item or scale == "log" else "linear")
+        what = curve.x.removesuffix("s") if per_item else "call"
+        ax.set(xlabel=curve.x, ylabel=f"time of one {what} [µs]" if per_item else "time [µs]")
+        if scale == "linear":
+            ax.set_xticks(curve.series[0].points and [p.x for p in curve.series[0].points])
+        ax.legend()
+    finding = _finding(curve, per_item)
+    alt = f"Curves of time over {curve.x}: " + "; ".join(
+        f"{s.name} from {_at(s, 0, per_item)} to {_at(s, -1, per_item)}" for s in curve.series
+    )
+    return Told(figure, finding, f"{alt}.")
+
+
+def _line(ax: Any, series: Series, per_item: bool, look: tuple[str, str]) -> None:
+    x = np.array([point.x for point in series.points])
+    share = x if per_item else np.ones(len(x))
+    mark, color = look
+    y = 1e6 * np.array([point.seconds for point in series.points]) / share
+    low, high = 1e6 * np.array([point.quartiles for point in series.points]).T / share
+    style = "--" if series.limit else "-"
+    ax.plot(x, y, style, marker=mark or None, color=color, ms=5, label=series.name)
+    ax.fill_between(x, low, high, color=color, alpha=0.2, lw=0)
+
+
+def _spread(curve: Curve) -> bool:
+    sizes = [point.x for point in curve.series[0].points]
+    return max(sizes) >= 20 * min(sizes)
+
+
+def _at(series: Series, k: int, per_item: bool) -> str:
+    point = series.points[k]
+    micro = 1e6 * point.seconds / (point.x if per_item else 1)
+    return f"{duration(micro)} at {point.x:,}"
+
+
+def _finding(curve: Curve, per_item: bool) -> str:
+    """The growth of ours between the ends, the others as multiples of it, and the memory."""
+    ours, *others = curve.series
+    first, last = ours.points[0], ours.points[-1]
+    grown, times = last.x / first.x, last.seconds / first.seconds
+    parts = [
+        f"{grown:,.0f} times as many {curve.x} take {times:,.3g} times as long"
+        + (f": {_at(ours, 0, True)}, {_at(ours, -1, True)}, each" if per_item else "")
+    ]
+    for other in others:
+        x = min(_TOLD, other.points[-1].x)
+        mine, theirs = ours.at(x), other.at(x)
+        if mine and theirs:
+            more = f"{theirs / mine:.2g} times" if not other.limit else f"1/{mine / theirs:.2g}"
+            parts.append(f"{other.name} needs {more} of our time at {x:,}")
+    if curve.peak_mb:
+        parts.append(f"peak memory is {max(curve.peak_mb.values()):,.0f} MB, libraries included")
+    head, *rest = parts
+    return f"{head}. " + (f"{'; '.join(rest).capitalize()}." if rest else "")
+
+
+def start_up_figure(run: BenchmarkRun) -> Told:
+    """Seconds of cold processes, with the limit that each has to keep."""
+    limits = {c.task: c for c in run.claims if c.suite == "start_up"}
+    tasks: Sequence[str] = list(dict.fromkeys(r.task for r in run.rows if r.suite == "start_up"))
+    with house_style():
+        figure, ax = plt.subplots(figsize=(WIDTH, 1.1 + 1.5 * _ROW * len(tasks)))
+        for y, task in enumerate(tasks):
+            rows = [r for r in run.rows if r.suite == "start_up" and r.task == task]
+            for row in rows:
+                ours = row.implementation == "dualarm_repro"
+                ax.plot(
+                    row.microseconds * 1e-6, y, "o", color=BLUE if ours else BLACK, ms=7 if ours else 5,
+                    mfc=BLUE if ours else "none", label="_",
+                )  # fmt: skip
+            if task in limits:
+                gate = limits[task].gate
+                ax.plot([gate, gate], [y - 0.35, y + 0.35], color=RED, lw=2.5)
+        ax.set(xscale="log", xlabel="seconds until a cold process has ended")
+        ax.set_yticks(range(len(tasks)), tasks)
+        ax.set_ylim(len(tasks) - 0.4, -0.6)
+        ax.plot([], [], "o", color=BLUE, label="dualarm_repro")
+        ax.plot([], [], "o", color=BLACK, mfc="none", label="import of others")
+        ax.plot([], [], "-", color=RED, lw=2.5, label="limit")
+        ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.16), ncols=3)
+    judged = [c for c in limits.values() if c.value is not None]
+    over = [c.text for c in judged if not c.gate_holds]
+    told = f"{len(judged) - len(over)} of {len(judged)} limits of start-up are kept"
+    finding = f"{told}.{' Missed: ' + '; '.join(over) + '.' if over else ''}"
+    each = ", ".join(f"{c.text} {c.value:.2g} s (limit {c.gate:g} s)" for c in judged)
+    return Told(figure, finding, f"Dots of seconds with limits as bars: {each}.")
