@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from math import log2
 from typing import Any
 
@@ -33,7 +34,7 @@ def judged(curves: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
 def doubling(points: Sequence[Mapping[str, Any]]) -> float:
     """max over neighbouring sizes of 2^(log(t2/t1) / log(n2/n1)), of CPU time: by how much the time
     of a call grows where its work doubles."""
-    pairs = zip(points, points[1:], strict=False)
+    pairs = pairwise(points)
     return max(
         2.0 ** (log2(b["cpu_seconds"] / a["cpu_seconds"]) / log2(b["x"] / a["x"])) for a, b in pairs
     )

@@ -1,4 +1,4 @@
-"""What a run was measured on: processor, vector instructions, cores, memory, and how busy it was."""
+"""What a run was measured on: processor, vector instructions, cores, memory, and its load."""
 
 from __future__ import annotations
 

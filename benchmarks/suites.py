@@ -64,7 +64,7 @@ def _of_task(checks: dict[tuple[str, str], str], task: str) -> dict[str, str]:
 def entry(
     timing: Timing, timings: Sequence[Timing], checks: dict[tuple[str, str], str]
 ) -> dict[str, object]:
-    """A timing as JSON; ``ratio`` is its median over that of ours in the same task, on one thread."""
+    """A timing as JSON; ``ratio`` is its median over that of ours in the same task."""
     row = timing.row
     ours = next(
         (t for t in timings if t.row.task == row.task and t.row.implementation == OURS), None

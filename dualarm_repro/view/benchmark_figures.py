@@ -137,10 +137,10 @@ def start_up_figure(run: BenchmarkRun) -> Told:
             rows = [r for r in run.rows if r.suite == "start_up" and r.task == task]
             for row in rows:
                 ours = row.implementation == "dualarm_repro"
-                ax.plot(
-                    row.microseconds * 1e-6, y, "o", color=BLUE if ours else BLACK, ms=7 if ours else 5,
-                    mfc=BLUE if ours else "none", label="_",
-                )  # fmt: skip
+                look = (
+                    {"color": BLUE, "ms": 7} if ours else {"color": BLACK, "ms": 5, "mfc": "none"}
+                )
+                ax.plot(row.microseconds * 1e-6, y, "o", **look)
             if task in limits:
                 gate = limits[task].gate
                 ax.plot([gate, gate], [y - 0.35, y + 0.35], color=RED, lw=2.5)
