@@ -1,6 +1,7 @@
 """What the project sets out to reach, suite by suite: gates that must hold, and goals.
 
-A claim names its task and implementations as the suite does; a run fails where it names none.
+A claim names its task and implementations as the suite does; where a suite has no such row, the run
+says that it was not measured.
 """
 
 from __future__ import annotations
