@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .benchmark_page import duration, verdict
+from .benchmark_page import duration, three_digits, verdict
 from .benchmark_run import BenchmarkRun, Claim, Curve, Series
 from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, WIDTH, house_style
 
@@ -37,7 +37,7 @@ def claims_figure(run: BenchmarkRun) -> Told:
         ax.axvline(1.0, color=BLACK, lw=1.2)
         for y, claim in enumerate(judged):
             _claim(ax, y, claim)
-        ax.set(xscale="log", xlabel="times better than the gate (the line)")
+        ax.set(xscale="log", xlabel="margin over the gate, which is the line [1]")
         ax.set_yticks(range(len(judged)), [claim.text for claim in judged])
         ax.set_ylim(len(judged) - 0.4, -0.6)
         ax.grid(axis="y", visible=False)
@@ -73,9 +73,11 @@ def growth_figure(curve: Curve, per_item: bool = True) -> Told:
         scale = "log" if _spread(curve) else "linear"
         ax.set(xscale=scale, yscale="log" if per_item or scale == "log" else "linear")
         what = curve.x.removesuffix("s") if per_item else "call"
-        ax.set(xlabel=curve.x, ylabel=f"time of one {what} [µs]" if per_item else "time [µs]")
+        ax.set(
+            xlabel=f"{curve.x} [1]", ylabel=f"time of one {what} [µs]" if per_item else "time [µs]"
+        )
         if scale == "linear":
-            ax.set_xticks(curve.series[0].points and [p.x for p in curve.series[0].points])
+            ax.set_xticks([point.x for point in curve.series[0].points])
         ax.legend()
     finding = _finding(curve, per_item)
     alt = f"Curves of time over {curve.x}: " + "; ".join(
@@ -107,24 +109,32 @@ def _at(series: Series, k: int, per_item: bool) -> str:
 
 
 def _finding(curve: Curve, per_item: bool) -> str:
-    """The growth of ours between the ends, the others as multiples of it, and the memory."""
+    """The growth of ours between the ends, the others beside it, and the memory."""
     ours, *others = curve.series
     first, last = ours.points[0], ours.points[-1]
-    grown, times = last.x / first.x, last.seconds / first.seconds
-    parts = [
-        f"{grown:,.0f} times as many {curve.x} take {times:,.3g} times as long"
-        + (f": {_at(ours, 0, True)}, {_at(ours, -1, True)}, each" if per_item else "")
-    ]
-    for other in others:
-        x = min(_TOLD, other.points[-1].x)
-        mine, theirs = ours.at(x), other.at(x)
-        if mine and theirs:
-            more = f"{theirs / mine:.2g} times" if not other.limit else f"1/{mine / theirs:.2g}"
-            parts.append(f"{other.name} needs {more} of our time at {x:,}")
+    grown = f"{three_digits(last.x / first.x)} times as many {curve.x}"
+    told = f"{grown} take {three_digits(last.seconds / first.seconds)} times as long"
+    if per_item:
+        told += f", {_at(ours, 0, True)} and {_at(ours, -1, True)} each"
+    beside = [text for other in others if (text := _beside(ours, other))]
+    parts = [told, *beside]
     if curve.peak_mb:
-        parts.append(f"peak memory is {max(curve.peak_mb.values()):,.0f} MB, libraries included")
-    head, *rest = parts
-    return f"{head}. " + (f"{'; '.join(rest).capitalize()}." if rest else "")
+        most = three_digits(max(curve.peak_mb.values()))
+        parts.append(f"Ours takes at most {most} MB of memory, libraries included")
+    return ". ".join(parts) + "."
+
+
+def _beside(ours: Series, other: Series) -> str:
+    """How another series compares with ours, at the largest size up to ``_TOLD`` that both have."""
+    sizes = [point.x for point in other.points if point.x <= _TOLD and ours.at(point.x)]
+    if not sizes:
+        return ""
+    mine, theirs, where = ours.at(sizes[-1]), other.at(sizes[-1]), f"At {sizes[-1]:,}"
+    if mine is None or theirs is None:
+        return ""
+    if other.limit:
+        return f"{where} ours takes {three_digits(mine / theirs)} times as long as {other.name}"
+    return f"{where} {other.name} takes {three_digits(theirs / mine)} times as long as ours"
 
 
 def start_up_figure(run: BenchmarkRun) -> Told:
@@ -144,13 +154,13 @@ def start_up_figure(run: BenchmarkRun) -> Told:
             if task in limits:
                 gate = limits[task].gate
                 ax.plot([gate, gate], [y - 0.35, y + 0.35], color=RED, lw=2.5)
-        ax.set(xscale="log", xlabel="seconds until a cold process has ended")
+        ax.set(xscale="log", xlabel="time until a cold process has ended [s]")
         ax.set_yticks(range(len(tasks)), tasks)
         ax.set_ylim(len(tasks) - 0.4, -0.6)
         ax.plot([], [], "o", color=BLUE, label="dualarm_repro")
         ax.plot([], [], "o", color=BLACK, mfc="none", label="import of others")
         ax.plot([], [], "-", color=RED, lw=2.5, label="limit")
-        ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.16), ncols=3)
+        figure.legend(loc="outside upper center", ncols=3)
     judged = [c for c in limits.values() if c.value is not None]
     over = [c.text for c in judged if not c.gate_holds]
     told = f"{len(judged) - len(over)} of {len(judged)} limits of start-up are kept"

@@ -56,7 +56,7 @@ def claims_page(run: BenchmarkRun) -> Page:
 
 def value_text(claim: Claim, value: float | None) -> str:
     """A value of a claim with its unit and three digits."""
-    return "" if value is None else f"{float(f'{value:.3g}'):,g}{UNITS[claim.kind]}"
+    return "" if value is None else f"{three_digits(value)}{UNITS[claim.kind]}"
 
 
 def verdict(claim: Claim) -> str:
@@ -89,10 +89,16 @@ def _cells(row: Row) -> dict[str, str]:
         "time": duration(row.microseconds),
         "quartiles": f"{duration(low)} – {duration(high)}",
         "CPU": duration(row.cpu_microseconds),
-        "times ours": "" if row.ratio is None else f"{float(f'{row.ratio:.3g}'):,g}",
+        "times ours": "" if row.ratio is None else three_digits(row.ratio),
         "first call": duration(1e6 * row.first_call_seconds),
         "same work": row.same_work or "not checked",
     }
+
+
+def three_digits(value: float) -> str:
+    """A number to three digits, of thousands with commas."""
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:,.0f}" if rounded >= 100.0 else f"{rounded:g}"
 
 
 def duration(microseconds: float) -> str:

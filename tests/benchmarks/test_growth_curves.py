@@ -61,10 +61,16 @@ def test_claims_of_curves():
     linear = {n: 1e-8 * n for n in (10, 1_000, 10_000)}
     made = growth_claims.judged([
         curve_of("configurations", {**linear, 10: 1.0}, **{"10000": 2_100.0}),
-        curve_of("workers", {1: 1.9, 2: 1.0}),
+        two_studies(1.9, 1.7),
     ])  # fmt: skip
-    assert [one["value"] for one in made] == pytest.approx([2.0, 2_100.0, 1.9])
-    assert [one["gate_holds"] for one in made] == [True, False, True]
+    assert [one["value"] for one in made] == pytest.approx([2.0, 2_100.0, 1.7])
+    assert [one["gate_holds"] for one in made] == [True, False, False]
+
+
+def two_studies(*gains):
+    """The curve of workers, one series a study."""
+    both = [curve_of("workers", {1: gain, 2: 1.0})["series"][0] for gain in gains]
+    return {**curve_of("workers", {}), "series": both}
 
 
 def test_one_core_says_nothing_of_two_workers():
