@@ -144,13 +144,13 @@ def start_up_figure(run: BenchmarkRun) -> Told:
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 1.1 + 1.5 * _ROW * len(tasks)))
         for y, task in enumerate(tasks):
-            rows = [r for r in run.rows if r.suite == "start_up" and r.task == task]
-            for row in rows:
-                ours = row.implementation == "dualarm_repro"
-                look = (
-                    {"color": BLUE, "ms": 7} if ours else {"color": BLACK, "ms": 5, "mfc": "none"}
-                )
-                ax.plot(row.microseconds * 1e-6, y, "o", **look)
+            ours, others = [], []
+            for row in run.rows:
+                if row.suite == "start_up" and row.task == task:
+                    kind = ours if row.implementation == "dualarm_repro" else others
+                    kind.append(1e-6 * row.microseconds)
+            ax.plot(others, [y] * len(others), "o", color=BLACK, mfc="none", ms=5)
+            ax.plot(ours, [y] * len(ours), "o", color=BLUE, ms=7)
             if task in limits:
                 gate = limits[task].gate
                 ax.plot([gate, gate], [y - 0.35, y + 0.35], color=RED, lw=2.5)
