@@ -144,7 +144,8 @@ def start_up_figure(run: BenchmarkRun) -> Told:
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 1.1 + 1.5 * _ROW * len(tasks)))
         for y, task in enumerate(tasks):
-            ours, others = [], []
+            ours: list[float] = []
+            others: list[float] = []
             for row in run.rows:
                 if row.suite == "start_up" and row.task == task:
                     kind = ours if row.implementation == "dualarm_repro" else others
