@@ -8,6 +8,7 @@ from importlib.util import find_spec
 import daqp
 import numpy as np
 import pinocchio as pin
+from equal_work import reference, same
 from timing import OURS, Row, timed
 
 from dualarm_repro.control.controller import VelocityController
@@ -29,9 +30,15 @@ def measure() -> Iterator[Row]:
     picked = busy[:: max(1, len(busy) // LOOP)][:LOOP]
     samples = [(motion.q[k], *scenario.circles.at(motion.time[k])) for k in picked]
     controller = VelocityController(scenario.system, settings)
-    yield timed(TASK, OURS, _loop(controller.velocity, samples), len(samples))
+    ours, by_daqp = _loop(controller.velocity, samples), _daqp(controller)
+    yield timed(TASK, OURS, ours, len(samples), check=reference())
     yield timed(
-        TASK, "kinematics and rows here, DAQP", _loop(_daqp(controller), samples), len(samples)
+        *(TASK, "kinematics and rows here, DAQP", _loop(by_daqp, samples), len(samples)),
+        check=same(
+            lambda: [controller.velocity(*sample)[0] for sample in samples],
+            lambda: [by_daqp(*sample) for sample in samples],
+            1e-6,
+        ),
     )
     if find_spec("pink"):
         yield timed(
@@ -51,14 +58,15 @@ def _loop(step: Callable, samples: list) -> Callable[[], None]:
 
 
 def _daqp(controller: VelocityController) -> Callable:
-    def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> None:
+    def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         p = controller.problem(q, position, velocity)
         m = len(p.b)
         rows, sense = np.vstack([p.A, p.G]), np.zeros(p.size + m + len(p.h), dtype=np.int32)
         sense[p.size : p.size + m] = 5
         upper = np.concatenate([p.upper, p.b, p.h])
         lower = np.concatenate([p.lower, p.b, np.full(len(p.h), -1e30)])
-        daqp.solve(np.eye(p.size), -p.target, rows, upper, lower, sense)
+        found, *_ = daqp.solve(np.eye(p.size), -p.target, rows, upper, lower, sense)
+        return found
 
     return step
 

@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import sys
+import traceback
 from pathlib import Path
 
 BLAS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -38,8 +39,14 @@ def main() -> int:
         **machine(), "libraries": versions(), "missing": missing(), "load": {},
         "rows": [], "claims": [], "different": [], "growth": [],
     }  # fmt: skip
+    broken = []
     for name in options.suites or known:
-        found = suites.run(name, options.rounds, options.budget, options.threads)
+        try:
+            found = suites.run(name, options.rounds, options.budget, options.threads)
+        except Exception:  # the other suites, which took long, are not lost
+            print(f"suite {name} ended early:\n{traceback.format_exc()}", file=sys.stderr)
+            broken.append(name)
+            continue
         report["load"][name] = found.pop("load")
         for key, values in found.items():
             report[key] += values
@@ -50,13 +57,13 @@ def main() -> int:
         )
         report["claims"] += growth_claims.judged(report["growth"])
         report["load"]["growth"] = [before, load()]
-    if options.store:
+    if options.store and not broken:
         _store(report)
     if options.json:
         print(json.dumps(report, indent=2))
     else:
         print_report(report)
-    return 1 if report["different"] else 0
+    return 1 if report["different"] or broken else 0
 
 
 def _store(report: dict[str, object]) -> None:
