@@ -35,7 +35,7 @@ def measure() -> Iterator[Row]:
     yield timed(
         *(TASK, "kinematics and rows here, DAQP", _loop(by_daqp, samples), len(samples)),
         check=same(
-            lambda: [controller.velocity(*sample)[0] for sample in samples],
+            lambda: [controller.velocity(*sample).copy() for sample in samples],
             lambda: [by_daqp(*sample) for sample in samples],
             1e-6,
         ),
@@ -66,7 +66,7 @@ def _daqp(controller: VelocityController) -> Callable:
         upper = np.concatenate([p.upper, p.b, p.h])
         lower = np.concatenate([p.lower, p.b, np.full(len(p.h), -1e30)])
         found, *_ = daqp.solve(np.eye(p.size), -p.target, rows, upper, lower, sense)
-        return found
+        return np.array(found)
 
     return step
 

@@ -13,9 +13,9 @@ from robots import NAME
 from dualarm_repro import load_arm
 from dualarm_repro.scene import PlacedArm, Scene, Sphere, distances
 
-TITLE, X = "distances of every link from every obstacle, one configuration", "obstacles"
+TITLE, X = "distances of every link from every obstacle, 100 configurations", "obstacles"
 SIZES = tuple(10**k for k in range(5))
-RADIUS = 0.02
+RADIUS, CONFIGURATIONS = 0.02, 100  # [m, 1]
 
 
 def series() -> list[Series]:
@@ -36,17 +36,18 @@ def scene_of(count: int) -> Scene:
     return Scene([PlacedArm("arm", load_arm(NAME))], balls, self_collision=False)
 
 
-def _posture(count: int) -> np.ndarray:
-    return load_arm(NAME).random_configurations(1, np.random.default_rng(count))[0]
+def postures(count: int) -> np.ndarray:
+    """Configurations of the arm, drawn with a seed."""
+    return load_arm(NAME).random_configurations(CONFIGURATIONS, np.random.default_rng(count))
 
 
 def _ours(count: int) -> Callable[[], object]:
-    scene, q = scene_of(count), _posture(count)
+    scene, q = scene_of(count), postures(count)
     return lambda: distances(scene, q)
 
 
 def _peer(count: int) -> Callable[[], object]:
-    arm, q = load_arm(NAME), _posture(count)
+    arm, q = load_arm(NAME), postures(count)
     geometry = arm.geometry.copy()
     links = [k for k, shape in enumerate(geometry.geometryObjects) if shape.parentJoint > 0]
     geometry.removeAllCollisionPairs()
@@ -58,9 +59,17 @@ def _peer(count: int) -> Callable[[], object]:
     data, shapes = arm.model.createData(), geometry.createData()
 
     def run() -> np.ndarray:
-        pin.computeDistances(arm.model, data, geometry, shapes, q)
-        return np.array([found.min_distance for found in shapes.distanceResults])
+        found = np.empty((len(q), len(geometry.collisionPairs)))
+        for row, posture in zip(found, q, strict=True):
+            pin.computeDistances(arm.model, data, geometry, shapes, posture)
+            row[:] = [one.min_distance for one in shapes.distanceResults]
+        return found
 
     mine = distances(scene_of(count), q)
     np.testing.assert_allclose(np.sort(run()), np.sort(mine), atol=1e-6)
-    return lambda: pin.computeDistances(arm.model, data, geometry, shapes, q)
+
+    def without_reading() -> None:
+        for posture in q:
+            pin.computeDistances(arm.model, data, geometry, shapes, posture)
+
+    return without_reading

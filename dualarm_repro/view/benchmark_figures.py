@@ -65,19 +65,19 @@ def _claim(ax: Any, y: float, claim: Claim) -> None:
 def growth_figure(curve: Curve, per_item: bool = True) -> Told:
     """Time over size with quartiles, of an item or of a whole call; limits of the machine are
     dashed."""
+    unit = "µs" if per_item else "ms"
+    what = curve.x.removesuffix("s") if per_item else "call"
     with house_style():
         figure, ax = plt.subplots(figsize=(WIDTH, 3.6))
         drawn = iter(zip(_MARKS, _COLORS, strict=True))
         for series in curve.series:
             _line(ax, series, per_item, ("", BLACK) if series.limit else next(drawn))
-        scale = "log" if _spread(curve) else "linear"
-        ax.set(xscale=scale, yscale="log" if per_item or scale == "log" else "linear")
-        what = curve.x.removesuffix("s") if per_item else "call"
-        ax.set(
-            xlabel=f"{curve.x} [1]", ylabel=f"time of one {what} [µs]" if per_item else "time [µs]"
-        )
-        if scale == "linear":
+        ax.set(xlabel=f"{curve.x} [1]", ylabel=f"time of one {what} [{unit}]")
+        if _spread(curve):
+            ax.set(xscale="log", yscale="log")
+        else:
             ax.set_xticks([point.x for point in curve.series[0].points])
+            ax.set_ylim(bottom=0.0)
         ax.legend()
     finding = _finding(curve, per_item)
     alt = f"Curves of time over {curve.x}: " + "; ".join(
@@ -88,10 +88,10 @@ def growth_figure(curve: Curve, per_item: bool = True) -> Told:
 
 def _line(ax: Any, series: Series, per_item: bool, look: tuple[str, str]) -> None:
     x = np.array([point.x for point in series.points])
-    share = x if per_item else np.ones(len(x))
+    scale = 1e6 / x if per_item else np.full(len(x), 1e3)
     mark, color = look
-    y = 1e6 * np.array([point.seconds for point in series.points]) / share
-    low, high = 1e6 * np.array([point.quartiles for point in series.points]).T / share
+    y = scale * np.array([point.seconds for point in series.points])
+    low, high = scale * np.array([point.quartiles for point in series.points]).T
     style = "--" if series.limit else "-"
     ax.plot(x, y, style, marker=mark or None, color=color, ms=5, label=series.name)
     ax.fill_between(x, low, high, color=color, alpha=0.2, lw=0)

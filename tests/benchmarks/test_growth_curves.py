@@ -93,4 +93,5 @@ def test_the_first_series_of_a_curve_is_ours(name):
 def test_distances_among_obstacles_are_those_of_the_peer():
     """The peer compares its distances with ours before it is timed."""
     obstacles._peer(10)()
-    assert scene.distances(obstacles.scene_of(10), obstacles._posture(10)).shape == (50,)
+    found = scene.distances(obstacles.scene_of(10), obstacles.postures(10))
+    assert found.shape == (obstacles.CONFIGURATIONS, 50)
