@@ -29,6 +29,7 @@ _FILES = {
     "pyproject.toml": "Name, version, licence and dependencies",
     "requirements.lock": "Every dependency with its hashes",
     "data/headlines.yaml": "Which numbers repro.yaml states",
+    "data/results/benchmarks.json": "Times beside other libraries, one run on one machine",
     "data/papers/inventory.csv": "Every figure, table, equation and claim that must be handled",
 }
 _CODE = {"pyproject.toml", "requirements.lock"}
@@ -62,7 +63,7 @@ def parts() -> dict[str, Part]:
     found = {name: Part(text, name in _CODE) for name, text in _FILES.items()}
     for (folder, pattern), text in _FOLDERS.items():
         for path in ROOT.joinpath(folder).glob(pattern):
-            found[f"{folder}/{path.name}"] = Part(text.format(path.stem))
+            found.setdefault(f"{folder}/{path.name}", Part(text.format(path.stem)))
     return found
 
 

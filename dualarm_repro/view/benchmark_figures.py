@@ -8,8 +8,10 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .benchmark_page import duration, three_digits, verdict
+from .benchmark_page import duration, not_measured, three_digits, verdict
 from .benchmark_run import BenchmarkRun, Claim, Curve, Series
+from .cell import shown
+from .page import Page
 from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, WIDTH, house_style
 
 _ROW = 0.27  # height of a line of names [in]
@@ -60,6 +62,19 @@ def _claim(ax: Any, y: float, claim: Claim) -> None:
     if claim.goal is not None:
         beyond = claim.goal / claim.gate if claim.kind == "faster" else claim.gate / claim.goal
         ax.plot(beyond, y, "D", mfc="none", mec=BLACK, ms=6)
+
+
+def growth_page(run: BenchmarkRun, name: str, per_item: bool = True) -> Page:
+    """A growth curve with its finding, or that the run has not measured it."""
+    curve = run.curve(name)
+    return shown(*growth_figure(curve, per_item)) if curve else not_measured(name)
+
+
+def start_up_page(run: BenchmarkRun) -> Page:
+    """Start-up with its limits, or that the run has not measured it."""
+    if any(row.suite == "start_up" for row in run.rows):
+        return shown(*start_up_figure(run))
+    return not_measured("start_up")
 
 
 def growth_figure(curve: Curve, per_item: bool = True) -> Told:

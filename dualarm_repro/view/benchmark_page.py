@@ -71,14 +71,21 @@ def verdict(claim: Claim) -> str:
 def rows_page(run: BenchmarkRun, *suites: str) -> Page:
     """The rows of some suites, in the order of their tasks; what does other work is named below."""
     chosen = [row for row in run.rows if row.suite in suites]
-    shown = table(pd.DataFrame([_cells(row) for row in chosen]))
+    absent = [name for name in suites if name not in {row.suite for row in chosen}]
+    shown = table(pd.DataFrame([_cells(row) for row in chosen])).html if chosen else ""
+    lacking = not_measured(*absent).html if absent else ""
     other = "".join(
         f"<p>Not timed, since it does other work: {escape(one.implementation)} in "
         f"<i>{escape(one.task)}</i> ({escape(one.reason)}).</p>"
         for one in run.different
         if one.suite in suites
     )
-    return Page(f"{shown.html}{other}")
+    return Page(f"{shown}{lacking}{other}")
+
+
+def not_measured(*names: str) -> Page:
+    """What the page says of suites and curves that the stored run lacks."""
+    return Page(f"<p>Not measured in the stored run: {escape(', '.join(names))}.</p>")
 
 
 def _cells(row: Row) -> dict[str, str]:
@@ -111,9 +118,12 @@ def duration(microseconds: float) -> str:
 
 def workers_page(run: BenchmarkRun) -> Page:
     """Seconds of the same cells of each study by one worker and by more."""
+    curve = run.curve("workers")
+    if curve is None:
+        return not_measured("workers")
     rows = [
         {"study": one.name} | {f"{point.x} workers [s]": point.seconds for point in one.points}
-        for one in run.curve("workers").series
+        for one in curve.series
     ]
     frame = pd.DataFrame(rows).rename(columns={"1 workers [s]": "1 worker [s]"})
     if "2 workers [s]" in frame:

@@ -110,18 +110,9 @@ class BenchmarkRun(StrictModel):
     different: tuple[Different, ...]
     growth: tuple[Curve, ...]
 
-    def curve(self, name: str) -> Curve:
-        """A growth curve by name.
-
-        Raises
-        ------
-        DataFileError
-            The run has none of that name.
-        """
-        found = {curve.name: curve for curve in self.growth}
-        if name not in found:
-            raise DataFileError(stored_path(), "growth", name, f"one of {', '.join(found)}")
-        return found[name]
+    def curve(self, name: str) -> Curve | None:
+        """A growth curve by name; None if this run has not measured it."""
+        return next((curve for curve in self.growth if curve.name == name), None)
 
 
 def stored_path() -> Path:

@@ -23,7 +23,7 @@ def test_every_suite_and_curve_is_shown():
     for row in stored().rows:
         assert f'"{row.suite}"' in text, row.suite
     for curve in stored().growth:
-        assert f'run.curve("{curve.name}")' in text or f"{curve.name}_page" in text, curve.name
+        assert f'growth_page(run, "{curve.name}"' in text or f"{curve.name}_page" in text
 
 
 def test_every_claim_was_measured_where_nothing_is_missing():

@@ -205,6 +205,17 @@ def test_a_damaged_file_is_named(tmp_path, text, says):
         stored(path)
 
 
-def test_a_curve_that_is_not_there_is_named(run):
-    with pytest.raises(DataFileError, match="one of configurations, workers"):
-        run.curve("moons")
+def test_what_was_not_measured_is_named(run):
+    nothing = BenchmarkRun.model_validate({**CONTENT, "growth": [], "rows": [ROW]})
+    assert "stored run: moons" in benchmark_figures.growth_page(run, "moons").html
+    assert "<svg" not in benchmark_figures.growth_page(run, "moons").html
+    assert "stored run: start_up" in benchmark_figures.start_up_page(nothing).html
+    assert "stored run: workers" in benchmark_page.workers_page(nothing).html
+    page = benchmark_page.rows_page(nothing, "kinematics", "control")
+    assert "stored run: control." in page.html
+    assert len(cells(page)) == 1
+
+
+def test_what_was_measured_is_drawn(run):
+    assert "<figure" in benchmark_figures.growth_page(run, "configurations").html
+    assert "<figure" in benchmark_figures.start_up_page(run).html
