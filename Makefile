@@ -84,8 +84,8 @@ claims: $(VENV)/.installed  ## let tools that are not ours check citations, arch
 	$(BIN)/claims verify _build/ledger/repro.yaml --policy publication
 	$(BIN)/python tools/check_archive.py . _build/ledger
 
-bench: $(VENV)/.bench  ## ratios against peers, measured in one run
-	$(BIN)/python benchmarks/run.py
+bench: $(VENV)/.bench  ## ratios against peers in one run, stored for the performance page
+	$(BIN)/python benchmarks/run.py --threads --growth --store
 
 serve:  ## open the built book
 	$(PYTHON) -m webbrowser "file://$(CURDIR)/_build/html/index.html"

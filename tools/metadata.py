@@ -32,6 +32,7 @@ _FILES = {
     "data/licences.csv": "Licences of everything that the locks install",
     "data/sbom.cdx.json": "Bill of materials of the locks, CycloneDX",
     "data/headlines.yaml": "Which numbers repro.yaml states",
+    "data/results/benchmarks.json": "Times beside other libraries, one run on one machine",
     "data/papers/inventory.csv": "Every figure, table, equation and claim that must be handled",
 }
 _CODE = {"pyproject.toml", "requirements.lock"}
@@ -70,7 +71,7 @@ def parts() -> dict[str, Part]:
     for (folder, pattern), text in _FOLDERS.items():
         for path in ROOT.joinpath(folder).glob(pattern):
             name = f"{folder}/{path.name}"
-            found[name] = Part(_ALONE.get(name, text.format(path.stem)))
+            found.setdefault(name, Part(_ALONE.get(name, text.format(path.stem))))
     return found
 
 
