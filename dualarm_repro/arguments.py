@@ -29,6 +29,7 @@ __all__ = [
     "Number",
     "Positive",
     "Rows3",
+    "Seed",
     "Shape",
     "Vector3",
     "checked",
@@ -41,6 +42,7 @@ NonNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1, le=MOST)]
 #: As many, or none.
 Number = Annotated[int, Field(ge=0, le=MOST)]
+Seed = Annotated[int, Field(ge=0)]
 #: Vectors (N, 3), and one (3,).
 Rows3 = Annotated[np.ndarray, Shape("N", 3)]
 Vector3 = Annotated[np.ndarray, Shape(3)]

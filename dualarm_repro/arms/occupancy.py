@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arguments import Count, Number, Positive, Rows3, checked
+from ..arguments import Count, Positive, Rows3, Seed, checked
 from ..errors import InputError
 from ..kernel import kernel
 from .arm import Arm
@@ -128,7 +128,7 @@ def occupancy(
 
 @checked
 def rotation_volumes(
-    arm: Arm, cells: Sequence[Positive], seed: Number, samples: Count = SAMPLES
+    arm: Arm, cells: Sequence[Positive], seed: Seed, samples: Count = SAMPLES
 ) -> list[RotationVolume]:
     """Volume of the workspace for several cell sizes [m] on one sample: a convergence table.
 

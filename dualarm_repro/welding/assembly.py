@@ -89,7 +89,7 @@ class Tools:
 
 
 @checked
-def base_poses(matrices: Annotated[np.ndarray, Shape(3, 4, 4)], reading: str) -> np.ndarray:
+def base_poses(matrices: Annotated[np.ndarray, Shape("K", 4, 4)], reading: str) -> np.ndarray:
     """Poses of the bases in the world from the matrices M that a document gives them.
 
     The product ^B_c T = ^B_w T ^w_c T needs ^B_w T: M^-1 if M is the pose of the base in the world
@@ -97,7 +97,7 @@ def base_poses(matrices: Annotated[np.ndarray, Shape(3, 4, 4)], reading: str) ->
 
     Parameters
     ----------
-    matrices : ndarray (3, 4, 4)
+    matrices : ndarray (K, 4, 4)
 
     Raises
     ------
