@@ -57,7 +57,6 @@ def test_none_is_wrong(kind):
         p = degenerate(kind, seed)
         own = solve(p)
         assert own.residual <= 1e-8, seed
-        assert own.primal_residual <= 1e-9, seed
         try:
             other = solve(p, "daqp")
         except NoSolution:  # the peer gave up; the certificate stands alone
