@@ -41,11 +41,13 @@ _SPDX = re.compile(r"[A-Za-z0-9.+-]+(?: (?:AND|OR|WITH) [A-Za-z0-9.+-]+)*")
 READ_BY_HAND = {
     "axe-playwright-python": ("MIT", "LICENSE file of the distribution"),
     "cmeel-qhull": ("Qhull", "COPYING.txt of Qhull"),
+    "deap": ("LGPL-3.0-or-later", "LICENSE.txt of the distribution"),
     "docutils": (
         "BSD-2-Clause AND PSF-2.0 AND GPL-3.0-or-later",
         "COPYING.txt; under the GPL is only a mode for an editor, which is not installed",
     ),
     "graphemeu": ("MIT", "LICENSE file of the distribution"),
+    "ik-geo": ("BSD-3-Clause", "LICENSE file of the distribution"),
     "matplotlib": ("PSF-2.0", "classifier"),
     "pyglet": ("BSD-3-Clause", "LICENSE file of the distribution"),
     "vhacdx": ("MIT AND BSD-3-Clause", "LICENSE files of the distribution and of V-HACD"),
