@@ -19,6 +19,7 @@ from .least_distance import SOLVED, least_distance
 _APART = 1e-6  # squared sine of a normal against the active span
 _SETTLED = 1e-13  # violation of active constraints that is not refined
 _FEASIBLE = 1e-12
+_REFINEMENTS = 3  # of large numbers no more digits come, and the certificate decides
 _REGISTER = 8  # numbers that a SIMD register holds
 
 
@@ -105,12 +106,13 @@ def few_constraints(program, gram):
         c[i], active[i] = b[i], i
         if not _append(N, L, x, c, v, i):
             return -1
-    count = m
+    count, refined = m, 0
     _minimise(program, gram, count)
     while True:
         worst = most_violated(x, G, h, lower, upper)
         if worst < 0:
-            if _refine(gram, count):
+            if refined < _REFINEMENTS and _refine(gram, count):
+                refined += 1
                 continue
             return count
         if count == n or _is_active(active, count, m + worst):
@@ -130,7 +132,7 @@ def few_constraints(program, gram):
             x[j] = target[j]
         if not _append(N, L, x, c, v, count):
             return -1
-        count += 1
+        count, refined = count + 1, 0
         _minimise(program, gram, count)
         for i in range(m, count):
             if u[i] < 0.0:

@@ -81,3 +81,18 @@ def test_the_compiled_step_minimises_alike(kind):
         if found.certified():
             np.testing.assert_allclose(used.x, solve(p).x, rtol=0, atol=1e-6)
     assert 0 < few < 200
+
+
+@pytest.mark.parametrize("scale", [1e6, 1e12])
+def test_numbers_so_large_that_no_refinement_settles_them_end(scale):
+    """Constraints of large right-hand sides are off by more than what counts as settled."""
+    for seed in range(50):
+        p = degenerate("plain", seed)
+        far = QuadraticProgram(
+            *(scale * p.target, p.A, scale * p.b, p.G, scale * p.h),
+            *(scale * p.lower, scale * p.upper),
+        )
+        sizes = far.size, len(far.b), len(far.h)
+        work = make_work(*sizes)
+        if few_constraints(far.parts, work.gram) >= 0:
+            np.testing.assert_allclose(work.gram.x[: far.size], scale * solve(p).x, rtol=1e-6)
