@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -16,9 +16,11 @@ from ..planning.methods import METHODS, AnyPlan, plan_file
 from ..planning.tasks.task_file import load_tasks
 from ..scene import MovingArm, Scene
 from ..settings import Settings
-from .page import Page
 from .scene3d import Scene3D
 from .task_scene import drawn_scene
+
+if TYPE_CHECKING:
+    from .page import Page
 
 _COMPARED = ("arrive", "outcome", "steps", "certified distance [m]", "between")
 PARKED = "parked"
@@ -136,6 +138,8 @@ def compare_methods(path: str | Path, allow_collision: bool = False) -> pd.DataF
 
 def plan_page(plan: AnyPlan, title: str) -> Page:
     """The motion of all arms for a page of the book."""
+    from .page import Page  # which draws figures, too
+
     return Page(plan_scene(plan, title).page_html())
 
 
