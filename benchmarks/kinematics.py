@@ -38,7 +38,8 @@ def measure() -> Iterator[Row]:
     )
     yield from _pinocchio(arm, few)
     exact = holds(
-        f"every branch reaches its pose to {RESIDUAL:.0e}", lambda: _residual(arm, poses) <= RESIDUAL
+        f"every branch reaches its pose to {RESIDUAL:.0e}",
+        lambda: _residual(arm, poses) <= RESIDUAL,
     )
     yield timed(INVERSE, OURS, lambda: arm.ik_branches(poses), LOOP, check=exact)
     yield timed(INVERSE, f"{OURS}, one at a time", lambda: [arm.ik(T) for T in poses], LOOP)

@@ -14,7 +14,11 @@ SECONDS = 5.0  # of one search and again of its simplification, at most
 
 
 def ompl_path(
-    limits: tuple[np.ndarray, np.ndarray], start: np.ndarray, goal: np.ndarray, free: Free, seed: int
+    limits: tuple[np.ndarray, np.ndarray],
+    start: np.ndarray,
+    goal: np.ndarray,
+    free: Free,
+    seed: int,
 ) -> np.ndarray | None:
     """A path (N, nq) [rad], simplified until OMPL finds nothing more to do; None if there was none
     within ``SECONDS``.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pinocchio as pin
@@ -33,7 +34,7 @@ def free_motion(free: Free, start: np.ndarray, end: np.ndarray) -> bool:
 
 def free_path(free: Free, path: np.ndarray) -> bool:
     """Whether all straight motions between the rows of a path (N, nq) are free."""
-    return all(free_motion(free, a, b) for a, b in zip(path, path[1:], strict=False))
+    return all(free_motion(free, a, b) for a, b in pairwise(path))
 
 
 def length(path: np.ndarray) -> float:

@@ -8,6 +8,8 @@ import numpy as np
 
 from dualarm_repro.arms import Arm
 
+NAME = "irb120"
+
 
 def toolbox_chain(arm: Arm) -> Any:
     """The arm as a compiled ETS of roboticstoolbox, checked to have the same kinematics."""
