@@ -45,10 +45,10 @@ def _rows(task: str, scene: Scene, starts: np.ndarray, ends: np.ndarray) -> Iter
 
     yield timed(task, OURS, proved, EDGES, check=reference())
     name = "pin.computeCollisions every 0.02 rad"
-    yield timed(task, name, sampled, EDGES, check=_same_edges(proved, sampled))
+    yield timed(task, name, sampled, EDGES, check=same_edges(proved, sampled))
 
 
-def _same_edges(
+def same_edges(
     proved: Callable[[], np.ndarray], sampled: Callable[[], np.ndarray]
 ) -> Callable[[], str]:
     """What is proved free is free for the peer too, and nearly all edges are judged alike: a peer

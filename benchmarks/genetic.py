@@ -43,10 +43,10 @@ def measure() -> Iterator[Row]:
     for name, run in runs.items():
         seeds = count(1)
         call = lambda run=run, seeds=seeds: run(next(seeds))  # noqa: E731
-        yield timed(TASK, name, call, SETTINGS.generations, check=_as_much(run))
+        yield timed(TASK, name, call, SETTINGS.generations, check=as_much(run))
 
 
-def _as_much(run: Callable[[int], Run]) -> Callable[[], str]:
+def as_much(run: Callable[[int], Run]) -> Callable[[], str]:
     """As many individuals, and a run that works."""
 
     def check() -> str:
