@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import permutations
 from time import perf_counter
 from typing import Any
 
@@ -63,31 +62,27 @@ def ompl_path_in_turn(
     free: Free,
     seed: int,
 ) -> np.ndarray | None:
-    """A path (N, nq) [rad] of one arm after the other, in the first order that has one."""
-    for order in permutations(arms):
-        paths, here = [start[None]], start
-        for columns in order:
+    """A path (N, nq) [rad] of one arm after the other in the order given, None if one has none.
 
-            def free_alone(q: np.ndarray, here: np.ndarray = here, at: slice = columns) -> bool:
-                whole = here.copy()
-                whole[at] = q
-                return free(whole)
+    No other order is tried: the time of a search in vain would count as that of a path.
+    """
+    paths, here = [start[None]], start
+    for columns in arms:
 
-            there = here.copy()
-            there[columns] = goal[columns]
-            if not free(there):
-                break
-            box = limits[0][columns], limits[1][columns]
-            found = ompl_path(box, here[columns], goal[columns], free_alone, seed)
-            if found is None:
-                break
-            rows = np.tile(here, (len(found), 1))
-            rows[:, columns] = found
-            paths.append(rows[1:])
-            here = there
-        else:
-            return np.concatenate(paths)
-    return None
+        def free_alone(q: np.ndarray, here: np.ndarray = here, at: slice = columns) -> bool:
+            whole = here.copy()
+            whole[at] = q
+            return free(whole)
+
+        box = limits[0][columns], limits[1][columns]
+        found = ompl_path(box, here[columns], goal[columns], free_alone, seed)
+        if found is None:
+            return None
+        rows = np.tile(here, (len(found), 1))
+        rows[:, columns] = found
+        paths.append(rows[1:])
+        here = rows[-1]
+    return np.concatenate(paths)
 
 
 def _state(space: Any, q: np.ndarray) -> Any:

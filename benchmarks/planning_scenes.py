@@ -28,13 +28,19 @@ def two_arms() -> Scene:
     return Scene([facing, PlacedArm("b", arm, turned)], between)
 
 
-def blocked_tasks(scene: Scene, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Starts and goals (nq,) [rad] that are clear and whose straight line is barred."""
+def blocked_tasks(scene: Scene, count: int, in_turn: bool = False) -> list[tuple]:
+    """Starts and goals (nq,) [rad] that are clear and whose straight line is barred; ``in_turn``
+    only such where the arms may stop on the way, all but the first ones still at their starts."""
     rng, found = np.random.default_rng(1), []
     lower, upper = scene.limits
     while len(found) < count:
         start, goal = rng.uniform(0.6 * lower, 0.6 * upper, (2, scene.nq))
-        clear = distances(scene, np.array([start, goal])).min() > _CLEAR
+        stops = [start, goal]
+        if in_turn:
+            for columns in scene.columns.values():
+                stops.append(stops[-1].copy() if len(stops) > 2 else start.copy())
+                stops[-1][columns] = goal[columns]
+        clear = distances(scene, np.array(stops)).min() > _CLEAR
         if clear and not free_edges(scene, start[None], goal[None], MARGIN)[0]:
             found.append((start, goal))
     return found

@@ -52,7 +52,8 @@ def _rows(
     planner: Callable[[PathProblem], FoundPath],
     peer: Callable[..., np.ndarray | None],
 ) -> Iterator[Row]:
-    ends, free = blocked_tasks(scene, TASKS), checker(scene, MARGIN)
+    ends = blocked_tasks(scene, TASKS, in_turn=task == TURNS)
+    free = checker(scene, MARGIN)
 
     def ours(start: np.ndarray, goal: np.ndarray, seed: int) -> np.ndarray | None:
         found = planner(PathProblem(scene, start, goal, PlannerSettings(seed=seed, margin=MARGIN)))

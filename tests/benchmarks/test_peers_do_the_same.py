@@ -74,7 +74,7 @@ def test_ompl_in_turn_moves_one_arm_at_a_time():
     pytest.importorskip("ompl")
     from ompl_paths import ompl_path_in_turn
 
-    arms, goal = [slice(0, 1), slice(1, 2)], np.array([0.5, 0.9])
+    arms, goal = [slice(1, 2), slice(0, 1)], np.array([0.5, 0.9])
     path = ompl_path_in_turn(LIMITS, arms, START, goal, beside_a_wall, 0)
     assert (np.count_nonzero(np.diff(path, axis=0), axis=1) <= 1).all()
     np.testing.assert_allclose(path[[0, -1]], [START, goal])
