@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
-from itertools import count
+from itertools import cycle
 
 import numpy as np
 from equal_work import DifferentWork, holds, reference, same
@@ -110,7 +110,7 @@ def _free(scene: Scene, path: Callable[[], np.ndarray], ends: object) -> Callabl
 def _ompl(task: str, scene: Scene, ours: Callable[[], np.ndarray], ends: object) -> Iterator[Row]:
     if not find_spec("ompl"):
         return
-    seeds, free = count(_SEEDS), checker(scene)
+    seeds, free = cycle(range(_SEEDS)), checker(scene)
 
     def path(seed: int) -> np.ndarray | None:
         return ompl_path(scene.limits, *ends, free, seed)

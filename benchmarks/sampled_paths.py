@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
-from itertools import count
+from itertools import cycle
 
 import numpy as np
 from equal_work import DifferentWork
@@ -99,8 +99,8 @@ def _lengths(planned: Planned, ends: list, free: Callable[[np.ndarray], bool]) -
 
 
 def _each(planned: Planned, ends: list) -> Callable[[], list[np.ndarray | None]]:
-    """All tasks, with other seeds in every call."""
-    seeds = count(_SEEDS)
+    """All tasks, with the seeds that are checked by turns."""
+    seeds = cycle(range(_SEEDS))
 
     def run() -> list[np.ndarray | None]:
         seed = next(seeds)
