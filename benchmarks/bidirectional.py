@@ -19,7 +19,6 @@ from timing import OURS, Row, timed
 
 from dualarm_repro.papers.qiu.document import PRINTED, placed
 from dualarm_repro.papers.qiu.reading import Slave
-from dualarm_repro.papers.qiu.studies.free_pairs import free_reading
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
 from dualarm_repro.planning.search.bidirectional_batch import plan_bidirectional_batch
 from dualarm_repro.planning.search.bidirectional_compiled import plan_bidirectional_compiled
@@ -28,6 +27,14 @@ from dualarm_repro.planning.search.search_plan import SearchPlan
 from dualarm_repro.scene import Scene
 
 _BATCH, _SEEDS = 64, 5
+#: The reading whose motion of both arms is free and keeps the largest distance.
+FREE = {
+    "goal_branch": "front_deep",
+    "control_points": "four_with_link_radii",
+    "adaptive_step": "lengthened",
+    "floor": "at_bases",
+    "gain_ratio": 1e-3,
+}
 _MEETS = 1e-4  # the ends of a path, which its smoothing shifts a little [rad]
 TASK, WEAK = "search of one master", "the same with a weaker repulsion"
 BOTH = "master, its hull, and the slave around it"
@@ -73,7 +80,7 @@ def _one_master() -> Iterator[Row]:
 
 def _both_arms() -> Iterator[Row]:
     """By the reading whose motion of whole links is free; ours until both can be executed."""
-    reading, slave, start = free_reading(), placed("slave"), PRINTED.start
+    reading, slave, start = Slave.nominal(**FREE), placed("slave"), PRINTED.start
     master, goals = reading.arm(), (reading.posture(), reading.slave_posture())
     chosen, other = reading.settings(), reading.settings(goal=goals[1])
     around, beside = reading.obstacles(), reading.obstacles(reading.slave_obstacles != "master")
