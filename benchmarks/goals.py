@@ -10,7 +10,9 @@ from claims import Claim, Kind
 
 _POSE, _JACOBIAN = "pose of the flange", "Jacobian and manipulability"
 _INVERSE, _STEP = "inverse kinematics, all branches", "control step of two Pandas with avoidance"
-_MASTER = "search of one master"
+_MASTER, _BOTH = "search of one master", "master, its hull, and the slave around it"
+_SAMPLED, _STATES = "OMPL RRT-Connect, simplified", "pin.computeCollisions every 0.02 rad"
+_WHOLE = "RRT-Connect of OMPL, whole links, simplified"
 _WELD = "the same with every constraint, and its fitness"
 
 GOALS: dict[str, tuple[Claim, ...]] = {
@@ -40,16 +42,48 @@ GOALS: dict[str, tuple[Claim, ...]] = {
             *("one manipulability", 1.5, None, "pinocchio", Kind.AT_MOST),
         ),
     ),
-    "bidirectional": (
+    "edges": (
+        Claim("edges proved, one arm", "edge validity, one arm", 50.0, 130.0, _STATES),
         Claim(
-            "master plan, RRT-Connect of OMPL",
-            *(_MASTER, 50.0, 140.0, "RRT-Connect of OMPL, whole links"),
+            "edges proved, two arms",
+            *("edge validity, two arms with 12 joints", 50.0, 130.0, _STATES),
         ),
+    ),
+    "capsule_distances": (
+        Claim(
+            "distances of capsules, Pinocchio's C++ loop",
+            *("distances of capsules, poses included", 3.0, 5.0, "pin.computeDistances"),
+        ),
+    ),
+    "sampled_paths": (
+        Claim("path of one arm, OMPL", "path, one arm", 8.0, 20.0, _SAMPLED),
+        Claim("path of two arms in turn, OMPL", "path, two arms in turn", 8.0, 20.0, _SAMPLED),
+        Claim("path of 12 joints at once, OMPL", "path, 12 joints at once", 8.0, 20.0, _SAMPLED),
+    ),
+    "bidirectional": (
+        Claim("master plan, RRT-Connect of OMPL", _MASTER, 50.0, 140.0, _WHOLE),
+        Claim("plan of two arms, RRT-Connect of OMPL", _BOTH, 50.0, 140.0, _WHOLE),
     ),
     "control": (
         Claim(
             "control step, pin-pink with barriers",
             *(_STEP, 30.0, 75.0, "pin-pink, self-collision barrier"),
+        ),
+        Claim(
+            "control step, mink with avoidance",
+            *(_STEP, 8.0, 15.0, "mink, collision avoidance limit"),
+        ),
+    ),
+    "genetic": (
+        Claim(
+            "generation of a genetic algorithm, pymoo",
+            *("generation of a genetic algorithm, 50 individuals", 60.0, 145.0, "pymoo"),
+        ),
+    ),
+    "welding": (
+        Claim(
+            "fitness of a weld, roboticstoolbox",
+            *(_WELD, 25.0, 60.0, "roboticstoolbox IK and manipulability"),
         ),
     ),
     "start_up": (

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.util import find_spec
 
 import coal
 import numpy as np
 import pinocchio as pin
 from equal_work import reference, same
+from robots import toolbox_chain
 from timing import OURS, Row, timed
 from weld_cell import GOOD, weld_cell
 
@@ -24,6 +26,7 @@ from dualarm_repro.welding.branches import follow
 
 SEAM_POINTS, POSITIONS = 72, 50
 BOX = np.array([[-0.6, 0.6], [-0.9, 0.9], [0.1, 1.5]])
+_TOLERANCE = 1e-16  # of half the squared error of a pose
 PATHS = "joint paths and manipulabilities of a weld at one position"
 FITNESS = "the same with every constraint, and its fitness"
 RUN = "genetic algorithm, 4 750 evaluations"
@@ -60,6 +63,8 @@ def measure() -> Iterator[Row]:
             1e-6,
         ),
     )
+    if find_spec("roboticstoolbox"):
+        yield from _roboticstoolbox(cell, jobs)
     yield timed(
         RUN, OURS, lambda: evolve(placement, BOX, GeneticSettings(), np.random.default_rng(1)), 1
     )
@@ -69,6 +74,26 @@ def _paths(cell: Cell, centres: np.ndarray) -> None:
     for k in range(len(cell.arms)):
         flanges = cell.flanges[k]
         follow(cell.geometries[k], cell.bases[k], flanges, centres, *cell.limits(k), 1e-3)
+
+
+def _roboticstoolbox(cell: Cell, jobs: Jobs) -> Iterator[Row]:
+    """Joint paths from point to point by its fast solver, and manipulabilities; no distances."""
+    chains = [toolbox_chain(arm) for arm in cell.arms]
+    to_base = np.linalg.inv(cell.bases)
+
+    def found() -> np.ndarray:
+        flanges = cell.flanges.copy()
+        flanges[:, :, :3, 3] += jobs.centres[0]
+        w = np.empty((3, cell.count))
+        for k, chain in enumerate(chains):
+            q = jobs.q[0, k, 0]
+            for n, target in enumerate(to_base[k] @ flanges[k]):
+                q = chain.ik_LM(target, q0=q, tol=_TOLERANCE, joint_limits=False).q
+                w[k, n] = abs(np.linalg.det(chain.jacob0(q)))
+        return w
+
+    check = same(lambda: jobs.w[0], found, 1e-6)
+    yield timed(FITNESS, "roboticstoolbox IK and manipulability", found, 1, check=check)
 
 
 def _by_coal(placement: Placement, jobs: Jobs) -> float:

@@ -41,7 +41,7 @@ def series() -> list[Series]:
     if find_spec("roboticstoolbox"):
 
         def toolbox(n: int) -> Callable[[], object]:
-            q, chain = drawn(n), toolbox_chain()
+            q, chain = drawn(n), toolbox_chain(arm)
             return lambda: chain.eval(q)
 
         found.append(Series("roboticstoolbox ETS", toolbox, SIZES[:6]))
