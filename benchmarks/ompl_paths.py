@@ -38,7 +38,7 @@ def ompl_path(
         bounds.setHigh(j, float(high))
     space.setBounds(bounds)
     setup = geometric.SimpleSetup(space)
-    setup.setStateValidityChecker(lambda state: free(np.array([state[j] for j in joints])))
+    setup.setStateValidityChecker(lambda state: bool(free(np.array([state[j] for j in joints]))))
     information = setup.getSpaceInformation()
     information.setStateValidityCheckingResolution(RESOLUTION / space.getMaximumExtent())
     for q in (start, goal):

@@ -75,6 +75,7 @@ def test_the_plain_functions_are_the_matrix_products(chain, seed):
     assert_allclose(plain("origins", chain, q), origins.ravel(), atol=1e-12)
     assert_allclose(plain("jacobian", chain, q), J.ravel(), atol=1e-12)
     w = np.prod(np.linalg.svd(J, compute_uv=False)) if len(q) >= 6 else 0.0
+    # Round-off of a product of six singular values, three of them lengths.
     assert_allclose(plain("manipulability", chain, q), [w], atol=1e-12 * (1 + abs(J).max()) ** 3)
 
 
