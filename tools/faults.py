@@ -30,7 +30,7 @@ KINDS: dict[str, Callable[[Laboratory], Iterator[Trial]]] = {
     "killed": lambda lab: struck.killed(lab, LONG),
     "interrupted": lambda lab: struck.interrupted(lab, (RUN, ROBUSTNESS, PLAN, VERIFY)),
     "two at once": lambda lab: struck.twice(lab, (RUN, STUDY, PLAN)),
-    "full disk": lambda lab: (*disks.full_disk(lab, (RUN, PLAN)), *disks.full_cache(lab, CACHED)),
+    "full disk": lambda lab: disks.full(lab, (RUN, PLAN), (SHOW, FORWARD)),
     "read-only folder": lambda lab: disks.read_only(lab, (RUN, SHOW, FORWARD)),
     "damaged record": caches.records,
     "damaged table": caches.tables,
@@ -40,7 +40,6 @@ KINDS: dict[str, Callable[[Laboratory], Iterator[Trial]]] = {
     "locale": lambda lab: surroundings.locales(lab, (SHOW, RUN, PLAN)),
     "odd folder": lambda lab: surroundings.folders(lab, (RUN, PLAN)),
 }
-CACHED = (SHOW, FORWARD)
 
 
 def counted(trials: Iterable[Trial]) -> dict[str, Any]:

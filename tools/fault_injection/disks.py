@@ -11,12 +11,18 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from .calls import called
+from .calls import Place, called
 from .jobs import OUT, Job, refusal
 from .laboratory import Laboratory, Trial, ordinary
 
 #: Page of a disk in memory [bytes].
 _PAGE = 4096
+
+
+def full(lab: Laboratory, jobs: Sequence[Job], cached: Sequence[Job]) -> Iterator[Trial]:
+    """No room for the results of some commands, and for what others keep."""
+    yield from full_disk(lab, jobs)
+    yield from full_cache(lab, cached)
 
 
 def full_disk(lab: Laboratory, jobs: Sequence[Job]) -> Iterator[Trial]:
@@ -36,7 +42,8 @@ def full_disk(lab: Laboratory, jobs: Sequence[Job]) -> Iterator[Trial]:
                 yield Trial("full disk", f"{job.name}, small disk", _refused(lab, job, place))
 
 
-def _refused(lab: Laboratory, job: Job, place) -> str:
+def _refused(lab: Laboratory, job: Job, place: Place) -> str:
+    """What is wrong with a command that has no room; empty if nothing."""
     call = called(job.command, place)
     expected = lab.undisturbed(job).results
     if call.code in job.codes:  # it fitted

@@ -13,7 +13,7 @@ import numpy as np
 
 from dualarm_repro.cache_folder import cache_folder
 
-from .calls import Call, Place, called
+from .calls import Place, called
 from .jobs import Job, last_line
 
 #: Words that take from a superuser the right to ignore who owns a file and its mode.
@@ -92,7 +92,7 @@ class Laboratory:
         expected = self.undisturbed(job).results
         return job.complaint(called(job.command, place), expected, place.folder)
 
-    def again(self, job: Job, place: Place, call: Call | None = None) -> str:
+    def again(self, job: Job, place: Place) -> str:
         """After a fault: no file of a final name is harmed, and the rerun gives the results."""
         harmed = job.harmed(self.undisturbed(job).results, place.folder)
         return harmed or self.survives(job, place)

@@ -8,7 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from prerun import isolate_kernels, open_cache, prerun
+from notebook_cache import open_cache
+from prerun import isolate_kernels, prerun
 
 from dualarm_repro.ledger.files import to_json, write_text
 

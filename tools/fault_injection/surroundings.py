@@ -10,7 +10,7 @@ from .calls import Place, called
 from .jobs import Job, cli, refusal
 from .laboratory import Laboratory, Trial
 
-NAMES = ("two words", "双臂 机械臂", "ünï çødé", "-dash", "it's \"quoted\" $HOME %20 #1", "a\nb")
+NAMES = ("two words", "双臂 机械臂", "ünï çødé", "-dash", 'it\'s "quoted" $HOME %20 #1', "a\nb")
 LOCALES: dict[str, dict[str, str | None]] = {
     "C": {"LC_ALL": "C"},
     "C, no UTF-8 at all": {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
