@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from dualarm_repro.cache_folder import cache_folder
 from .calls import Place, called
 from .jobs import Job, last_line
 
+Kind = TypeVar("Kind")
 #: Words that take from a superuser the right to ignore who owns a file and its mode.
 ORDINARY = (
     "setpriv", "--bounding-set=-dac_override,-dac_read_search",
@@ -40,11 +41,15 @@ class Undisturbed(NamedTuple):
 
 @dataclass
 class Laboratory:
-    """Folders below ``scratch``; ``repeats`` random moments, sizes and damages of each kind."""
+    """Folders below ``scratch``; ``repeats`` random moments and sizes of each kind and command.
+
+    ``few`` tries only so many, drawn by ``rng``, of the ways to damage, the folders, the locales.
+    """
 
     scratch: Path
     rng: np.random.Generator
     repeats: int
+    few: int | None = None
     known: dict[str, Undisturbed] = field(default_factory=dict)
     _number: int = 0
 
@@ -54,6 +59,11 @@ class Laboratory:
         folder = self.scratch / f"place{self._number}"
         folder.mkdir(parents=True)
         return Place(folder, **{"cache": self.warm(), **surroundings})
+
+    def some(self, ways: Iterable[Kind]) -> list[Kind]:
+        """All of some ways, or a few of them."""
+        every = list(ways)
+        return [every[k] for k in self.rng.permutation(len(every))[: self.few]]
 
     def warm(self) -> Path:
         """A cache that all share, at first a copy of the user's."""
@@ -141,7 +151,7 @@ def each_damage(
     lab: Laboratory, files: Callable[[Path], list[Path]], prepared: Callable[[], Place]
 ) -> Iterator[tuple[str, Place]]:
     """For each way, a place whose files have gone bad in it."""
-    for way, damage in damages(lab.rng).items():
+    for way, damage in lab.some(damages(lab.rng).items()):
         place = prepared()
         if way == "another owner" and not place.prefix and os.geteuid() == 0:
             continue  # nothing is closed to a superuser
