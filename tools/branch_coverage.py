@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import sys
 from collections import Counter
@@ -16,7 +17,7 @@ from dualarm_repro.ledger.files import to_json, write_text
 
 ROOT = Path(__file__).resolve().parents[1]
 STORED = ROOT / "data" / "results" / "coverage.json"
-SETTINGS = "tools/coverage.ini"
+SETTINGS = ROOT / "tools" / "coverage.ini"
 SUITE = ("-n", "auto", "--dist", "loadfile")
 
 
@@ -44,21 +45,28 @@ def main(arguments: list[str] | None = None) -> int:
     if find_spec("coverage") is None:
         print("branch_coverage: the package coverage is not installed", file=sys.stderr)
         return 2
-    measure = [sys.executable, "-m", "coverage"]
-    options = [f"--rcfile={SETTINGS}"]
-    (ROOT / "_build" / "coverage").mkdir(parents=True, exist_ok=True)
-    subprocess.run([*measure, "erase", *options], cwd=ROOT, check=True)
-    tests = subprocess.run(
-        [*measure, "run", *options, "-m", "pytest", *(asked.tests or SUITE)], cwd=ROOT, check=False
-    )
-    subprocess.run([*measure, "combine", "-q", *options], cwd=ROOT, check=True)
-    report = ROOT / "_build" / "coverage" / "report.json"
-    subprocess.run([*measure, "json", "-q", *options, "-o", report], cwd=ROOT, check=True)
+    folder = ROOT / "_build" / "coverage"
+    folder.mkdir(parents=True, exist_ok=True)
+    # Absolute, since tests call commands in folders of their own.
+    measured = {"COVERAGE_FILE": str(folder / "data"), "COVERAGE_RCFILE": str(SETTINGS)}
+
+    def coverage(*words: object) -> int:
+        command = [sys.executable, "-m", "coverage", *map(str, words)]
+        return subprocess.run(
+            command, cwd=ROOT, env={**os.environ, **measured}, check=False
+        ).returncode
+
+    coverage("erase")
+    tests = coverage("run", "-m", "pytest", *(asked.tests or SUITE))
+    report = folder / "report.json"
+    if coverage("combine", "-q") or coverage("json", "-q", "-o", report):
+        print("branch_coverage: nothing was measured", file=sys.stderr)
+        return 1
     found = by_room(json.loads(report.read_text(encoding="utf-8"))["files"])
     if asked.out or not asked.tests:
         write_text(asked.out or STORED, to_json(found))
     print(f"{found['reached']} of {found['branches']} branches")
-    return int(tests.returncode != 0)
+    return int(tests != 0)
 
 
 if __name__ == "__main__":

@@ -58,9 +58,13 @@ def counted(trials: Iterable[Trial]) -> dict[str, Any]:
 def tried(lab: Laboratory, kinds: Iterable[str]) -> Iterator[Trial]:
     """Every fault of these kinds, told as soon as it has been tried."""
     for kind in kinds:
-        for trial in KINDS[kind](lab):
-            print(f"{trial.kind}: {trial.name}: {trial.wrong or 'survived'}", flush=True)
-            yield trial
+        try:
+            for trial in KINDS[kind](lab):
+                print(f"{trial.kind}: {trial.name}: {trial.wrong or 'survived'}", flush=True)
+                yield trial
+        except RuntimeError as failure:  # a command without a fault; the other kinds go on
+            print(f"{kind}: {failure}", flush=True)
+            yield Trial(kind, "without a fault", str(failure))
 
 
 def main(arguments: list[str] | None = None) -> int:

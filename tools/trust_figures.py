@@ -13,8 +13,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from dualarm_repro.ledger.files import write_text
-
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "data" / "results"
 PAGE = ROOT / "tests" / "README.md"
@@ -116,7 +114,7 @@ def main(arguments: list[str] | None = None) -> int:
     after = with_figures(before, figures())
     if asked.check:
         return int(before != after)
-    write_text(PAGE, after)
+    PAGE.write_text(after, encoding="utf-8")
     return 0
 
 

@@ -1,5 +1,7 @@
 """The cache of executed notebooks: what is damaged is executed again, what is whole is kept."""
 
+import re
+
 import nbformat
 import pytest
 from jupyter_cache import get_cache
@@ -12,8 +14,8 @@ def filled(tmp_path):
     """A sealed cache of two notebooks."""
     cache = get_cache(tmp_path / "cache")
     for k in range(2):
-        cell = nbformat.v4.new_code_cell(f"print({k})", execution_count=1)
-        cell.outputs = [nbformat.v4.new_output("stream", text=f"{k}\n")]
+        outputs = [nbformat.v4.new_output("stream", text=f"{k}\n")]
+        cell = nbformat.v4.new_code_cell(f"print({k})", execution_count=1, outputs=outputs)
         notebook = nbformat.v4.new_notebook(cells=[cell])
         cache.cache_notebook_bundle(CacheBundleIn(notebook, f"page{k}"))
     seal(cache, tmp_path / "cache")
@@ -43,7 +45,9 @@ def test_a_notebook_that_cannot_be_read(filled, content):
 
 def test_another_output_is_seen(filled):
     path = notebook(filled)
-    path.write_text(path.read_text().replace('"text": "', '"text": "forged '))
+    content = path.read_text()
+    path.write_text(re.sub(r'"[01]\\n"', r'"7\\n"', content))
+    assert path.read_text() != content
     assert len(kept(filled)) == 1
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from .calls import Place, called
-from .jobs import FORWARD, OUT, PRERUN, SHOW, STUDY, Job
+from .jobs import FORWARD, OUT, PRERUN, SHOW, STUDY
 from .laboratory import Laboratory, Trial, each_damage, ordinary
 
 #: File endings of machine code: its index and itself.
@@ -16,15 +16,19 @@ _INDEX, _CODE = "*.nbi", "*.nbc"
 
 def records(lab: Laboratory) -> Iterator[Trial]:
     """Records and the import graph of a cache: a bad one is a miss."""
+    lab.undisturbed(SHOW)
     for pattern in ("records/*.json", "sources.json"):
-        for way, place in _with_cache(lab, SHOW, pattern):
+        for way, place in _with_cache(lab, lab.warm(), pattern):
             yield Trial("damaged record", f"{pattern}, {way}", lab.survives(SHOW, place))
 
 
 def machine_code(lab: Laboratory) -> Iterator[Trial]:
     """Machine code of a cache and its index: compiled again."""
+    lab.undisturbed(FORWARD)
+    filled = lab.scratch / "compiled"
+    called(FORWARD.command, lab.place(cache=filled))
     for pattern in (_INDEX, _CODE):
-        for way, place in _with_cache(lab, FORWARD, f"compiled/**/{pattern}"):
+        for way, place in _with_cache(lab, filled, f"compiled/**/{pattern}"):
             name = f"{pattern.removeprefix('*')}, {way}"
             yield Trial("damaged machine code", name, lab.survives(FORWARD, place))
 
@@ -68,17 +72,17 @@ def _below(folder: Path, pattern: str) -> Iterator[Path]:
     return (folder / "_build" / ".jupyter_cache").rglob(pattern)
 
 
-def _with_cache(lab: Laboratory, job: Job, pattern: str) -> Iterator[tuple[str, Place]]:
-    """Places with caches of their own, filled by the job and then damaged."""
-    lab.undisturbed(job)
-    filled = lab.scratch / f"filled-{job.name}"
-    if not filled.is_dir():
-        called(job.command, lab.place(cache=filled))
+def _with_cache(lab: Laboratory, filled: Path, pattern: str) -> Iterator[tuple[str, Place]]:
+    """Places with copies of a cache, as far as it is damaged, whose files have gone bad."""
+    above = pattern.partition("/")[0]
 
     def prepared() -> Place:
         place = lab.place(prefix=ordinary() or ())
         own = place.folder / "cache"
-        shutil.copytree(filled, own)
+        own.mkdir()
+        for name in {above, "sources.json"}:
+            source = filled / name
+            (shutil.copytree if source.is_dir() else shutil.copy2)(source, own / name)
         return Place(place.folder, own, prefix=place.prefix)
 
     yield from each_damage(lab, lambda folder: sorted((folder / "cache").glob(pattern)), prepared)

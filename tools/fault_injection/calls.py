@@ -90,7 +90,7 @@ def computed(process: subprocess.Popen[bytes]) -> float | None:
     try:
         for one in _tree(process):
             times = one.cpu_times()
-            total += times.user + times.system
+            total += times.user + times.system + times.children_user + times.children_system
     except psutil.Error:
         return None if process.poll() is not None else total
     return total
@@ -101,7 +101,8 @@ def reaches(process: subprocess.Popen[bytes], seconds: float) -> bool:
 
     The moment is one of its own computing, so that a busy machine moves it to no other place.
     """
-    while process.poll() is None:
+    end = time.monotonic() + LIMIT
+    while process.poll() is None and time.monotonic() < end:
         done = computed(process)
         if done is None:
             return False
@@ -117,6 +118,8 @@ def kill(process: subprocess.Popen[bytes]) -> None:
         for one in _tree(process):
             with suppress(psutil.Error):
                 one.kill()
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
 
 
 def interrupt(process: subprocess.Popen[bytes]) -> None:

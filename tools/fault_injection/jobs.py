@@ -44,7 +44,7 @@ class Job:
         """SHA-256 of every file that bears its final name, and what the command told."""
         out = folder / OUT
         found = {
-            path.relative_to(out).as_posix(): sha256(path.read_bytes()).hexdigest()
+            path.relative_to(out).as_posix(): _key(path)
             for path in sorted(out.rglob("*"))
             if path.is_file() and not _hidden(path.relative_to(out))
         }
@@ -85,6 +85,13 @@ def last_line(text: str) -> str:
     lines = [line for line in text.splitlines() if line.strip()]
     words = (lines[-1] if lines else "").split()
     return " ".join("(…)" if word.count("/") > 1 else word for word in words)[:200]
+
+
+def _key(path: Path) -> str:
+    try:
+        return sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return "cannot be read"
 
 
 def _hidden(path: Path) -> bool:

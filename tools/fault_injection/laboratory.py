@@ -44,12 +44,14 @@ class Laboratory:
     """Folders below ``scratch``; ``repeats`` random moments and sizes of each kind and command.
 
     ``few`` tries only so many, drawn by ``rng``, of the ways to damage, the folders, the locales.
+    ``cache`` is the one that all share; without, a copy of the user's.
     """
 
     scratch: Path
     rng: np.random.Generator
     repeats: int
     few: int | None = None
+    cache: Path | None = None
     known: dict[str, Undisturbed] = field(default_factory=dict)
     _number: int = 0
 
@@ -58,7 +60,8 @@ class Laboratory:
         self._number += 1
         folder = self.scratch / f"place{self._number}"
         folder.mkdir(parents=True)
-        return Place(folder, **{"cache": self.warm(), **surroundings})
+        surroundings.setdefault("cache", self.warm())
+        return Place(folder, **surroundings)
 
     def some(self, ways: Iterable[Kind]) -> list[Kind]:
         """All of some ways, or a few of them."""
@@ -66,15 +69,13 @@ class Laboratory:
         return [every[k] for k in self.rng.permutation(len(every))[: self.few]]
 
     def warm(self) -> Path:
-        """A cache that all share, at first a copy of the user's."""
-        folder = self.scratch / "warm"
-        if not folder.is_dir():
-            source = cache_folder()
+        """The cache that all share."""
+        if self.cache is None:
+            self.cache, source = self.scratch / "warm", cache_folder()
             if source is not None and source.is_dir():
-                shutil.copytree(source, folder)
-            else:
-                folder.mkdir(parents=True)
-        return folder
+                shutil.copytree(source, self.cache)
+        self.cache.mkdir(parents=True, exist_ok=True)
+        return self.cache
 
     def undisturbed(self, job: Job) -> Undisturbed:
         """What a command gives when nothing happens to it, twice the same.

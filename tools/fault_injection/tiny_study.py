@@ -11,7 +11,7 @@ import numpy as np
 
 from dualarm_repro.ledger import Study, study
 
-CELLS, DRAWS = 24, 400_000
+CELLS, DRAWS = 24, 2_000_000
 
 
 def cells() -> list[dict[str, Any]]:
