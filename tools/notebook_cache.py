@@ -38,7 +38,11 @@ def open_cache(folder: Path) -> Any:
             found = _hash(cache, entry.pk)
             if found is None or seals.get(entry.hashkey, found) != found:
                 _remove(cache, entry)
-    except (SQLAlchemyError, *_UNREADABLE):
+    except (
+        SQLAlchemyError,
+        RuntimeError,
+        *_UNREADABLE,
+    ):  # the second is how it passes on the first
         shutil.rmtree(folder, ignore_errors=True)
         cache = get_cache(folder)
     return cache

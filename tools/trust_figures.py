@@ -68,9 +68,11 @@ def rows(results: Path, tests: Path) -> Iterator[tuple[str, str, str]]:
         yield f"faults: {kind}", str(found["tried"]), f"{found['survived']} survived"
     ledger = _stored(results, "trust")
     for name, found in (ledger or {"counts": {}})["counts"].items():
-        yield f"changes of what is {name}" if name != "method" else "mutants of the methods", str(
-            found["tried"]
-        ), f"{found['killed']} noticed"
+        yield (
+            f"changes of what is {name}" if name != "method" else "mutants of the methods",
+            str(found["tried"]),
+            f"{found['killed']} noticed",
+        )
     matrix = _stored(results, "install_matrix")
     if matrix is not None:
         ends = ", ".join(f"{number} {end}" for end, number in matrix["counts"].items())
