@@ -23,12 +23,15 @@ from dualarm_repro.ledger.files import to_json, write_text
 
 #: The register that jupyter-cache keeps, and our hashes of the notebooks in it.
 REGISTER, SEALS = "global.db", "seals.json"
-_UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError)
+_FILES = (REGISTER, SEALS, "pages.json")
+#: jupyter-cache passes some errors of its database on as a RuntimeError.
+_UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError, RuntimeError)
 
 
 def open_cache(folder: Path) -> Any:
     """The cache of a folder without the entries that are damaged; a new one if all of it is."""
-    if folder.exists() and not _readable(folder / REGISTER):
+    damaged = any((folder / name).is_dir() for name in _FILES)
+    if damaged or (folder.exists() and not _readable(folder / REGISTER)):
         shutil.rmtree(folder, ignore_errors=True)
     cache = get_cache(folder)
     try:
@@ -38,11 +41,7 @@ def open_cache(folder: Path) -> Any:
             found = _hash(cache, entry.pk)
             if found is None or seals.get(entry.hashkey, found) != found:
                 _remove(cache, entry)
-    except (
-        SQLAlchemyError,
-        RuntimeError,
-        *_UNREADABLE,
-    ):  # the second is how it passes on the first
+    except (SQLAlchemyError, *_UNREADABLE):
         shutil.rmtree(folder, ignore_errors=True)
         cache = get_cache(folder)
     return cache

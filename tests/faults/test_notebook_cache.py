@@ -58,9 +58,10 @@ def test_a_register_that_is_no_database(filled, content):
     seal(open_cache(filled), filled)
 
 
-def test_a_register_that_is_a_folder(filled):
-    (filled / REGISTER).unlink()
-    (filled / REGISTER).mkdir()
+@pytest.mark.parametrize("name", [REGISTER, SEALS, "pages.json"])
+def test_a_file_that_is_a_folder(filled, name):
+    (filled / name).unlink(missing_ok=True)
+    (filled / name).mkdir()
     assert kept(filled) == []
 
 

@@ -34,7 +34,7 @@ def machine_code(lab: Laboratory) -> Iterator[Trial]:
 
 
 def tables(lab: Laboratory) -> Iterator[Trial]:
-    """Table, record and finished part of a stored study: seen, and computed again."""
+    """Table and record of a stored study: seen, and computed again."""
     lab.undisturbed(STUDY)
     told = (*STUDY.command, "status")
 
