@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Generic, Literal, TypeVar
+from typing import Annotated, Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import NonNegative, Positive, checked
+from ..arguments import NonNegative, Positive, Shape, checked
 from ..errors import InputError, UnknownNameError
 from ..scene import JointPath, PlacedArm, Scene
 from ..settings import Settings
@@ -48,10 +48,14 @@ class Task(Generic[_Settings_co]):
         steps, so that all arms make one step at a time.
     """
 
-    start: ArrayLike
-    goal: ArrayLike
+    start: Annotated[ArrayLike, Shape("n")]
+    goal: Annotated[ArrayLike, Shape("n")]
     settings: _Settings_co
     index: Callable[[Plan], np.ndarray] | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.settings, Settings):
+            raise InputError("Task", "settings", self.settings, "the settings of a planner")
 
 
 @dataclass(frozen=True, eq=False)

@@ -400,7 +400,7 @@ VALID = {
     },
     "control.Circles.through": lambda: _circles(duration=1.0),
     "control.Circles.at": lambda: {"t": 0.3},
-    "control.Motion.drift": lambda: {"period": 0.01},
+    "control.Motion.drift": lambda: {"period": 0.001},
     "control.NetworkSettings.numbers": lambda: {"dt": 1e-3},
     "control.NoSolution": lambda: {"source": "x", "problem": made("program"), "reason": "none"},
     "control.QuadraticProgram": _program,

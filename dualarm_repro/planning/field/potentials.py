@@ -141,6 +141,10 @@ class PointRepulsion:
     @checked
     def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
+        if q.ndim != 1:
+            expected = f"({self.placed.arm.nq},)"
+            raise ConfigurationError("PointRepulsion", "shape of q", q.shape, expected)
+        _require_joints("PointRepulsion", q, self.placed.arm.nq)
         frames = frames_of(self.placed, q[np.newaxis])
         ends = cores_in(frames, self.points.joint, self.points.local)
         found = self.obstacles.distances(ends, self.points.radius, step)
