@@ -91,9 +91,9 @@ def checked_run(
         raise InputError("simulate", "dt", dt, f"a step in (0, {circles.duration:g}] s")
     if not (isinstance(cycles, int) and cycles > 0):
         raise InputError("simulate", "cycles", cycles, "a positive whole number")
-    steps = round(cycles * circles.duration / dt)
-    if steps > MOST_STEPS:
+    if not cycles * circles.duration / dt <= MOST_STEPS:
         raise InputError("simulate", "dt", dt, f"a step with at most {MOST_STEPS} in all")
+    steps = round(cycles * circles.duration / dt)
     return system.configuration(q0), settings.numbers(), steps
 
 
