@@ -61,7 +61,9 @@ def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False
     margin = problem.margin
     setup.setStateValidityChecker(lambda s: problem.clearance(_vector(s, len(lower))) > margin)
     information = setup.getSpaceInformation()
-    fraction = problem.settings.resolution / space.getMaximumExtent()
+    extent = space.getMaximumExtent()
+    # A share below 1 is demanded, also of joints whose whole range is below the resolution.
+    fraction = problem.settings.resolution / max(extent, 2.0 * problem.settings.resolution)
     information.setStateValidityCheckingResolution(fraction)
     setup.setStartAndGoalStates(*(_state(space, q) for q in (problem.start, problem.goal)))
     if optimal:

@@ -53,6 +53,30 @@ def test_baseline_does_a_task_that_is_free(name, tmp_path):
     assert 0 < problem.evaluations <= 6000  # a sweep that has begun is finished
 
 
+_LINK = (
+    '<link name="{0}"><collision><origin xyz="0 0 0.1"/><geometry><box size="0.02 0.02 0.1"/>'
+    "</geometry></collision></link>"
+)
+_JOINT = (
+    '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
+    '<origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>'
+    '<limit lower="-0.002" upper="0.002" effort="1" velocity="1"/></joint>'
+)
+
+
+@pytest.mark.parametrize("name", BASELINES)
+def test_an_arm_whose_whole_range_is_below_the_resolution(name, tmp_path):
+    links = "".join(map(_LINK.format, "abc"))
+    joints = _JOINT.format("j1", "a", "b") + _JOINT.format("j2", "b", "c")
+    (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
+    scene = "arms: {only: {robot: stiff.urdf, start: [0.001, -0.001], goal: [-0.001, 0.002]}}"
+    problem = problem_of(tmp_path, scene, evaluations=400)
+    assert np.ptp(problem.limits, axis=0).max() < problem.settings.resolution
+    plan, found = judged(name, problem)
+    assert all(one.reached for one in plan.plans.values())
+    assert found.collision_free
+
+
 @pytest.mark.parametrize(
     "name", ["rrt-connect", "rrt-connect-simplified", "rrt-connect-compiled", "cbf-qp"]
 )
