@@ -60,18 +60,21 @@ _LINK = (
 _JOINT = (
     '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
     '<origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>'
-    '<limit lower="-0.002" upper="0.002" effort="1" velocity="1"/></joint>'
+    '<limit lower="-{3}" upper="{3}" effort="1" velocity="1"/></joint>'
 )
 
 
+@pytest.mark.parametrize("reach", ["0.002", "1e16"])
 @pytest.mark.parametrize("name", BASELINES)
-def test_an_arm_whose_whole_range_is_below_the_resolution(name, tmp_path):
+def test_an_arm_whose_limits_are_narrower_than_the_resolution_or_as_good_as_none(
+    name, reach, tmp_path
+):
     links = "".join(map(_LINK.format, "abc"))
-    joints = _JOINT.format("j1", "a", "b") + _JOINT.format("j2", "b", "c")
+    joints = _JOINT.format("j1", "a", "b", reach) + _JOINT.format("j2", "b", "c", reach)
     (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
     scene = "arms: {only: {robot: stiff.urdf, start: [0.001, -0.001], goal: [-0.001, 0.002]}}"
     problem = problem_of(tmp_path, scene, evaluations=400)
-    assert np.ptp(problem.limits, axis=0).max() < problem.settings.resolution
+    assert np.ptp(problem.limits, axis=0).max() < 60.0
     plan, found = judged(name, problem)
     assert all(one.reached for one in plan.plans.values())
     assert found.collision_free
