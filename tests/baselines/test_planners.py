@@ -80,6 +80,17 @@ def test_an_arm_whose_limits_are_narrower_than_the_resolution_or_as_good_as_none
     assert found.collision_free
 
 
+def test_ends_too_far_apart_for_ompl_are_refused(tmp_path):
+    pytest.importorskip("ompl")
+    links = "".join(map(_LINK.format, "abc"))
+    joints = _JOINT.format("j1", "a", "b", "1e16") + _JOINT.format("j2", "b", "c", "1e16")
+    (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
+    scene = "arms: {only: {robot: stiff.urdf, start: [0, 0], goal: [1.0e+15, 0]}}"
+    problem = problem_of(tmp_path, scene, evaluations=400)
+    with pytest.raises(InputError, match=r"range of the joints.*at most 1e\+09"):
+        BASELINES["rrt-connect"](problem)
+
+
 @pytest.mark.parametrize(
     "name", ["rrt-connect", "rrt-connect-simplified", "rrt-connect-compiled", "cbf-qp"]
 )
