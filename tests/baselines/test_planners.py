@@ -85,8 +85,8 @@ def test_ends_too_far_apart_for_ompl_are_refused(tmp_path):
     links = "".join(map(_LINK.format, "abc"))
     joints = _JOINT.format("j1", "a", "b", "1e16") + _JOINT.format("j2", "b", "c", "1e16")
     (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
-    scene = "arms: {only: {robot: stiff.urdf, start: [0, 0], goal: [1.0e+15, 0]}}"
-    problem = problem_of(tmp_path, scene, evaluations=400)
+    given = problem_of(tmp_path, "arms: {only: {robot: stiff.urdf, start: [0, 0], goal: [1, 0]}}")
+    problem = PathProblem(given.scene, given.start, np.array([1e15, 0.0]), given.settings)
     with pytest.raises(InputError, match=r"range of the joints.*at most 1e\+09"):
         BASELINES["rrt-connect"](problem)
 
