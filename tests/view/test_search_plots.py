@@ -40,7 +40,7 @@ def test_the_first_run_stands_beside_the_printed_coordinates():
     first, said = ax.containers
     assert [bar.get_height() for bar in first] == best[0].tolist()
     assert [bar.get_height() for bar in said] == printed.tolist()
-    assert [bar.get_facecolor()[:3] for bar in first][0] != said[0].get_facecolor()[:3]
+    assert first[0].get_facecolor()[:3] != said[0].get_facecolor()[:3]
     assert words(ax) == ["0.100", "-0.250", "0.800", "-0.300", "0.500", "0.810"]
     for text in ax.texts:
         above = float(text.get_text()) >= 0

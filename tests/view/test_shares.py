@@ -29,10 +29,10 @@ def test_bars_have_the_length_and_the_whiskers_of_their_shares():
         share = row["met"]
         assert segment[:, 0] == pytest.approx([100 * share.low, 100 * share.high])
     assert words(ax) == ["90 %", "0 %", "1.6 %"]
-    for text, high in zip(ax.texts, (ROWS["the improved method"]["met"].high,
-                                     ROWS["the other"]["met"].high,
-                                     ROWS["the improved method"]["possible"].high), strict=True):  # fmt: skip
-        assert text.get_position()[0] > 100 * high, "a number stands beyond its whisker"
+    drawn = [ROWS[name][group] for name, group in (
+        ("the improved method", "met"), ("the other", "met"), ("the improved method", "possible"))]  # fmt: skip
+    for text, share in zip(ax.texts, drawn, strict=True):
+        assert text.get_position()[0] > 100 * share.high, "a number stands beyond its whisker"
     mark = next(line for line in ax.lines if line.get_label() == "printed")
     assert mark.get_xdata()[0] == 80.0
     assert [t.get_text() for t in ax.get_yticklabels()] == list(ROWS)
