@@ -13,6 +13,7 @@ from dualarm_repro.view.style import BLUE, ORANGE
 from .drawn import curves, words
 
 POINTS = np.random.default_rng(5).uniform((-0.6, -0.5, -0.2), (0.6, 0.5, 0.9), (600, 3))
+ASIDE = np.array([0.0, 1.2, 0.0])
 BODY = [RotationVolume(cell, 10, 1.0 + cell, 0.0) for cell in (0.02, 0.04, 0.08)]
 VOXELS = [VoxelVolume(cell, 10, 1.0 - cell) for cell in (0.02, 0.04, 0.08)]
 
@@ -53,7 +54,7 @@ def test_volumes_stand_over_the_size_of_their_cells():
 
 
 def test_clouds_of_several_arms_are_seen_from_two_sides():
-    clouds = {"left": POINTS - [0, 1.2, 0], "right": POINTS + [0, 1.2, 0]}
+    clouds = {"left": POINTS - ASIDE, "right": POINTS + ASIDE}
     figure = cloud_figure(clouds, (BLUE, ORANGE))
     above, along = figure.axes
     assert [ax.get_title(loc="left") for ax in figure.axes] == ["from above", "along x"]

@@ -109,8 +109,8 @@ def test_a_loop_returns_to_its_first_step():
     corners = rhombus.get_xy()[:4]
     found = boxes(ax)
     assert len(found) == 2
-    back = next(a for a in arrows(ax) if on_edge(a[1], found["box-1"])
-                and a[1][1] == pytest.approx(0.5 * (found["box-1"][1] + found["box-1"][3])))  # fmt: skip
+    x0, y0, _, y1 = found["box-1"]
+    back = next(a for a in arrows(ax) if np.allclose(a[1], (x0, 0.5 * (y0 + y1))))
     assert back[0][0] < back[1][0], "it comes from the left"
     loop = np.column_stack(ax.lines[0].get_data())
     np.testing.assert_allclose(loop[-1], back[0])

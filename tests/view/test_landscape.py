@@ -1,4 +1,4 @@
-"""Slices of a landscape: the right plane, masked where nothing is feasible, marks where they are."""
+"""Slices of a landscape: the right plane, masked where nothing is feasible, marks in place."""
 
 from types import SimpleNamespace
 

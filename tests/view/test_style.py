@@ -1,7 +1,7 @@
 """House style: colours for every eye, contrast on light and on dark paper, one scale in space."""
 
 import re
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -13,7 +13,8 @@ from dualarm_repro.view import style, theme
 from dualarm_repro.view.style import PALETTE, axes_3d, house_style, ink, same_scale
 
 #: Simulation of full protanopia and deuteranopia in linear RGB: G. M. Machado, M. M. Oliveira,
-#: L. A. F. Fernandes, A physiologically-based model for simulation of color vision deficiency, 2009.
+#: L. A. F. Fernandes, A physiologically-based model for simulation of color vision
+#: deficiency, 2009.
 EYES = {
     "usual": np.eye(3),
     "protanopia": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
@@ -87,7 +88,7 @@ def test_greys_keep_their_order_on_dark_paper():
         if light not in ("#b0b0b0",) and len(set(re.findall("..", light[1:]))) == 1
     )
     assert len(greys) >= 20
-    assert all(a[1] > b[1] for a, b in zip(greys, greys[1:], strict=False)), "dark ink turns light"
+    assert all(a[1] > b[1] for a, b in pairwise(greys)), "dark ink turns light"
 
 
 def test_rules_stand_once_before_the_definitions():

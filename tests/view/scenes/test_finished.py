@@ -103,7 +103,7 @@ def test_an_arm_that_hangs_or_has_no_floor_gets_no_foot():
     made, arms = scene(1.0, turn=(np.pi, 0.0, 0.0))
     assert not [part for part in added(made, arms)[3] if part.color == FOOT and part.kind == "rod"]
     made, arms = scene(grid=False)
-    contents, _, floor, new = added(made, arms)
+    _, _, floor, new = added(made, arms)
     assert floor is None
     assert not [part for part in new if part.kind == "rod"]
 

@@ -1,4 +1,4 @@
-"""Curves of a slice as the page has them: points, circles, names apart, and the data of a script."""
+"""Curves of a slice as the page has them: points, circles, names apart, data of a script."""
 
 import json
 import re
