@@ -152,7 +152,7 @@ def test_a_device_holds_a_program_that_is_numbered():
 
 @pytest.mark.parametrize(
     ("code", "wide", "lines"),
-    [("a.b", 3.0, ["a.b"]), ("module.function_name", 1.2, ["module.", "function_", "name"]),
+    [("a.b", 3.0, ["a.b"]), ("module.function_name", 0.9, ["module.", "function_", "name"]),
      ("", 3.0, [""])],
 )  # fmt: skip
 def test_code_breaks_at_dots_and_underscores(code, wide, lines):
