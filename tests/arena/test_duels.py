@@ -89,8 +89,8 @@ def wilson_ends(count, total):
     def off(p):
         return abs(p - share) - z * np.sqrt(p * (1.0 - p) / total)
 
-    low = brentq(off, 0.0, share, xtol=1e-14) if share > 0.0 else 0.0
-    high = brentq(off, share, 1.0, xtol=1e-14) if share < 1.0 else 1.0
+    low = brentq(off, 0.0, min(share, 1.0 - 1e-9), xtol=1e-14) if share > 0.0 else 0.0
+    high = brentq(off, max(share, 1e-9), 1.0, xtol=1e-14) if share < 1.0 else 1.0
     return low, high
 
 

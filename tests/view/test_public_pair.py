@@ -92,9 +92,9 @@ def test_a_report_never_promises_more_than_the_samples_keep(arm, rng, apart):
     rows = np.linspace(*ends, 200)
     least = float(distances(scene, rows).min())
     assert found["pair_lower"] <= least + 1e-9
-    assert found["pair_reached"] is True
-    assert (found["pair_lower"] > 0.0) is (least > 0.0)
-    assert judged(scene, FoundPath(ends, "stuck"))["pair_reached"] is False
+    assert found["pair_reached"]
+    assert bool(found["pair_lower"] > 0.0) is (least > 0.0)
+    assert not judged(scene, FoundPath(ends, "stuck"))["pair_reached"]
 
 
 def test_an_arm_that_cannot_move_has_no_task(arm, rng, monkeypatch):

@@ -1,4 +1,4 @@
-"""The scene of a job: robots and workpiece move together, bars have the height of what they show."""
+"""The scene of a job: robots and workpiece move together, bars are as high as what they show."""
 
 import numpy as np
 import pytest

@@ -49,7 +49,7 @@ def test_a_scene_in_motion_is_shown_where_bodies_are_closest():
 @pytest.mark.parametrize(
     ("distance", "told"),
     [(0.00432, "left, link 3 and ball are 4.3 mm apart"),
-     (-0.0155, "left, link 3 and ball overlap by 16 mm"),
+     (-0.0157, "left, link 3 and ball overlap by 16 mm"),
      (-0.0012, "left, link 3 and ball overlap by 1.2 mm")],
 )  # fmt: skip
 def test_distances_are_told_to_a_sensible_digit(distance, told):
