@@ -95,7 +95,7 @@ def test_an_arm_stands_on_the_floor(height, columns):
     assert bottom == pytest.approx(min(0.0, low))
     assert below < plate
     assert top > low
-    assert contents.columns is columns
+    assert bool(contents.columns) is columns
     assert floor.height == 0.0
 
 

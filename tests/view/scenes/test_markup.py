@@ -18,7 +18,9 @@ def contents(distances=None, frames=(0, 3, 7), **more):
     made = Contents("Two <boxes>.", np.ones(3), grid=True, **more)
     made.parts.append(Part(WORLD, "box", (0.2, 0.3, 0.4), "#0072B2"))
     if frames:
-        made.motion = Motion(np.array(frames), 20)
+        made.nodes["cart"] = np.eye(4)
+        poses = np.tile(np.eye(4), (len(frames), 1, 1))
+        made.motion = Motion(np.array(frames), 20, {"cart": poses})
     if distances is not None:
         count = len(distances)
         names = [("left, link 3", "ball")] * count

@@ -34,6 +34,19 @@ def test_vertices_lie_on_the_shape(name):
     assert part.color == "#9A9A9A"
 
 
+def support(shape, unit):
+    """How far a shape reaches along a direction."""
+    match shape:
+        case Sphere():
+            return shape.center @ unit + shape.radius
+        case Capsule():
+            return max(shape.start @ unit, shape.end @ unit) + shape.radius
+        case Box():
+            return shape.center @ unit + abs(shape.rotation.T @ unit) @ (0.5 * shape.size)
+        case _:
+            return (shape.vertices @ unit).max()
+
+
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_whole_shape_is_drawn(name):
     """Along many directions the drawing reaches as far as the shape, up to its facets."""
@@ -41,9 +54,7 @@ def test_the_whole_shape_is_drawn(name):
     vertices = surface(solid_part(name, shape, "#9A9A9A")).vertices
     for direction in rng.normal(size=(20, 3)):
         unit = direction / np.linalg.norm(direction)
-        wall = HalfSpace(-unit, -5.0)  # beyond 5 m along the direction
-        reach = 5.0 - signed_distance(shape, wall).distance
-        drawn = (vertices @ unit).max()
+        reach, drawn = support(shape, unit), (vertices @ unit).max()
         assert drawn <= reach + 1e-9
         assert drawn > reach - 0.003  # 28 facets around a radius of 0.1 m
 

@@ -120,7 +120,7 @@ def test_polylines_and_clouds_are_drawn_at_their_points(kind, vertices):
     assert at(image, (0.0, 0.0, 0.2))[3] > 0.3
     assert at(image, (0.0, 0.0, -0.2))[3] == 0.0
     between = at(image, (0.15, 0.0, 0.2))[3]
-    assert (between > 0.3) is (kind == "line")
+    assert bool(between > 0.3) is (kind == "line")
 
 
 def test_the_floor_is_a_grid_below():
