@@ -68,8 +68,10 @@ def test_scenes_of_arms(placed):
 def test_arms_stand_in_one_posture_and_in_their_colours(placed):
     made = standing("t", placed, PATH[-1], CAMERA)
     for arm, color in zip(placed, (MASTER, SLAVE), strict=True):
+        data = arm.arm.model.createData()
+        pin.forwardKinematics(arm.arm.model, data, PATH[-1])
         pose = made.contents.nodes[f"{arm.name}/6"]
-        np.testing.assert_allclose(pose[:3, 3], flange(arm, PATH[-1]), atol=1e-9)
+        np.testing.assert_allclose(pose, (arm.placement * data.oMi[6]).homogeneous, atol=1e-9)
         checked = {p.color for p in made.contents.checked if p.node.startswith(f"{arm.name}/")}
         assert checked == {color}
 

@@ -14,7 +14,7 @@ from dualarm_repro.view.verdict_picture import answer_page, verdict_picture
 MORE = """\
 document:
   {id: toy, type: article, title: A <toy>, title_original: Ein Spiel, authors: ["Doe, J", "Roe, R"],
-   journal: Toys & Games, year: 2020, unknown: [volume, pages]}
+   journal: Toys & Games, year: "2020", unknown: [volume, pages]}
 """
 
 

@@ -28,6 +28,7 @@ def test_digits_that_are_shown_are_right(value):
     """Half a unit of the third digit, of the second in powers of ten."""
     text = number(value)
     digits = 2 if any(sign in text for sign in _RAISED_SIGNS) else 3
+    # half a unit of the last digit shown
     assert read(text) == pytest.approx(value, rel=0.5001 * 10.0 ** (1 - digits))
     assert len(text) <= 11
     told = number(-value)

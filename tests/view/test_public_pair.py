@@ -84,17 +84,23 @@ def test_postures_of_both_are_clear_and_the_first_is_that_of_both(arm, rng):
 
 
 @pytest.mark.parametrize("apart", [0.9, 0.25])
-def test_a_report_never_promises_more_than_the_samples_keep(arm, rng, apart):
+def test_a_report_never_promises_more_than_the_samples_keep(arm, apart, monkeypatch):
     """The straight line between two postures, far apart and through each other."""
+    looked = []
+    monkeypatch.setattr(public_pair, "mesh_distance", lambda scene, q: looked.append(q) or 0.125)
     scene = two_of(arm, apart)
     ends = np.array([np.zeros(12), np.tile([0.8, 0.3, 0.0, 0.0, 0.2, 0.0], 2)])
     found = judged(scene, FoundPath(ends, "reached"))
     rows = np.linspace(*ends, 200)
     least = float(distances(scene, rows).min())
     assert found["pair_lower"] <= least + 1e-9
-    assert found["pair_reached"]
     assert bool(found["pair_lower"] > 0.0) is (least > 0.0)
+    assert found["pair_reached"]
+    assert found["pair_meshes"] == 0.125
     assert not judged(scene, FoundPath(ends, "stuck"))["pair_reached"]
+    np.testing.assert_allclose(looked[0][: public_pair.ROWS], np.linspace(*ends, public_pair.ROWS))
+    nearest = distances(scene, looked[0][-1]).min()
+    assert nearest <= least + 0.01, "where the certificate is tightest the meshes are looked at too"
 
 
 def test_an_arm_that_cannot_move_has_no_task(arm, rng, monkeypatch):

@@ -15,6 +15,8 @@ from dualarm_repro.view.slices.curves import _apart, _minima
 from dualarm_repro.view.slices.data import compact, rounded
 
 X = np.linspace(0.0, 2.0, 41)
+#: Places of a drawing are written to a tenth of a pixel.
+TENTH = 0.06
 CURVES = [
     Curve("both", {"a": X, "b": (X - 1.0) ** 2}),
     Curve("plain", {"a": X}, dashed=True),
@@ -43,7 +45,7 @@ def test_what_is_drawn_is_the_sum_of_the_terms_with_their_gains():
     for drawn, heights in ((both, X + 2.0 * (X - 1.0) ** 2), (plain, X)):
         across = start + X / 2.0 * (end - start)
         up = bottom + heights / 4.0 * (top - bottom)
-        np.testing.assert_allclose(drawn, np.column_stack([across, up]), atol=0.051)
+        np.testing.assert_allclose(drawn, np.column_stack([across, up]), atol=TENTH)
     first, second = soup.select(".slice-curve")
     assert not first.has_attr("stroke-dasharray")
     assert second.has_attr("stroke-dasharray")
@@ -77,9 +79,13 @@ def test_marks_and_levels_stand_at_their_places():
     texts = {t.get_text().strip(): t for t in soup.select("text")}
     mark, level = (texts[name].find_previous_sibling("line") for name in ("trap", "zero"))
     assert (
-        float(mark["x1"]) == float(mark["x2"]) == pytest.approx(start + 0.25 * (end - start), 0.1)
+        float(mark["x1"])
+        == float(mark["x2"])
+        == pytest.approx(start + 0.25 * (end - start), abs=TENTH)
     )
-    assert float(level["y1"]) == float(level["y2"]) == pytest.approx(0.5 * (bottom + top), abs=0.1)
+    assert (
+        float(level["y1"]) == float(level["y2"]) == pytest.approx(0.5 * (bottom + top), abs=TENTH)
+    )
 
 
 def test_inner_minima_are_circled():
@@ -89,7 +95,7 @@ def test_inner_minima_are_circled():
     (_, _, start, end), (_, _, bottom, top) = data_of(soup)["axes"]
     place = float(circles[0]["cx"]), float(circles[0]["cy"])
     at = start + 0.25 * (end - start), bottom + 0.25 * (top - bottom)
-    assert place == pytest.approx(at, abs=0.1)
+    assert place == pytest.approx(at, abs=TENTH)
     assert made().select(".slice-minima circle") == []
 
 

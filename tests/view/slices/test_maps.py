@@ -15,6 +15,8 @@ from dualarm_repro.view.slices import Layer, map_slice, placement_slice
 from dualarm_repro.view.slices.maps import _range, _whole
 
 X, Y = np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 0.5, 3)
+#: Places of a drawing are written to a tenth of a pixel.
+TENTH = 0.06
 VALUES = np.arange(15.0).reshape(3, 5)
 
 
@@ -66,9 +68,9 @@ def test_marks_lie_within_their_cells():
     assert (left, right) == (-1.25, 1.25)
     assert (low, high) == (-0.125, 0.625)
     places = {text: (x, y) for text, x, y in data_of(soup)["layers"][0]["marks"]}
-    assert places["middle"] == pytest.approx((0.5 * (start + end), 0.5 * (bottom + top)), abs=0.1)
+    assert places["middle"] == pytest.approx((0.5 * (start + end), 0.5 * (bottom + top)), abs=TENTH)
     across, up = (end - start) / 5, (top - bottom) / 3
-    assert places["corner"] == pytest.approx((start + across / 2, bottom + up / 2), abs=0.1)
+    assert places["corner"] == pytest.approx((start + across / 2, bottom + up / 2), abs=TENTH)
     circles = [(float(c["cx"]), float(c["cy"])) for c in soup.select(".slice-marks circle")]
     assert circles == [tuple(place) for place in places.values()]
 
