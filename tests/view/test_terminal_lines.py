@@ -84,6 +84,8 @@ def test_a_check_that_comes_out_otherwise_is_beside_the_declared():
     (text,) = before_rows(changed())
     assert text == " (declared values: 1, holds)"
     assert before_rows(changed(checks=[CHECK])) == [""]
+    other = changed(checks=[{**CHECK, "obtained": 1.5}])
+    assert before_rows(other) == [" (declared values: 1, holds)"], "another value, still held"
     assert before_rows({**RECORD, "checks": [CHECK, CHECK]}) == ["", ""]
 
 
