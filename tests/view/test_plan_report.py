@@ -86,7 +86,7 @@ def test_a_bracket_decides_only_if_it_lies_on_one_side(bounds, verdict, free):
 
 @pytest.mark.parametrize(
     ("reached", "begun", "excess", "lower"),
-    product((True, False), (True, False), (0.0, 0.1), (0.01, -0.02)),
+    list(product((True, False), (True, False), (0.0, 0.1), (0.01, -0.02))),
 )
 def test_everything_that_keeps_a_motion_from_being_run_is_told(reached, begun, excess, lower):
     found = truths(lower, lower + 0.005, excess)
