@@ -58,7 +58,6 @@ def test_another_print_is_a_miss_and_another_part_is_not(toy, cache, tmp_path):
         ("inputs", {"papers/none.yaml#items.x": "0" * 64}),
         ("inputs", [1]),
         ("roots", None),
-        ("drawn", True),
     ],
 )
 def test_whatever_differs_is_a_miss_and_never_an_error(toy, cache, field, value):
