@@ -19,8 +19,7 @@ IDENTITY = np.eye(3, 4)[None]
 def around():
     shapes = {
         "pair": (Sphere((0.6, 0.0, 0.2), 0.1), Capsule((0.2, 0.5, 0), (0.2, 0.9, 0.3), 0.05)),
-        "block": Box(pin.SE3(pin.exp3(np.array([0.2, 0.4, 0.1])), np.array([-0.5, -0.2, 0.3])),
-                     (0.1, 0.2, 0.15)),
+        "block": Box((-0.5, -0.2, 0.3), (0.2, 0.4, 0.3), pin.exp3(np.array([0.2, 0.4, 0.1]))),
         "floor": HalfSpace((0.0, 0.1, 1.0), -0.6),
     }  # fmt: skip
     return obstacles_of(Scene([PlacedArm("arm", load_arm("irb120"))], shapes))
@@ -65,8 +64,10 @@ def test_of_every_obstacle_the_nearest_shape_counts(around, seed):
             if distance[k, group] + radius[k] > 1e-3:  # outside there is one direction
                 p, n = witness(ends[k], IDENTITY[0], *parts(around), best)
                 np.testing.assert_allclose(n, outward[k, best], atol=1e-6)
-                gaps = np.cross(np.subtract(p, point[k, best]), ends[k, 1] - ends[k, 0])
-                np.testing.assert_allclose(gaps, 0.0, atol=1e-6)
+                # On the core here, on the surface there: apart along the direction.
+                offset = np.subtract(p, point[k, best])
+                np.testing.assert_allclose(np.cross(offset, n), 0.0, atol=1e-6)
+                assert np.linalg.norm(offset) <= radius[k] + 1e-9
 
 
 @settings(max_examples=30)
