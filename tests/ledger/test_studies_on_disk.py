@@ -82,7 +82,7 @@ def test_the_record_says_what_was_run(toy, tmp_path):
     assert list(scratch.glob("*.json")) == [], "finished chunks are not kept for ever"
 
 
-def test_more_cells_than_were_stored_are_no_stale_table_but_another_digest(toy, tmp_path):
+def test_another_setting_is_stale_and_another_title_is_not(toy, tmp_path):
     toy().run(scratch=tmp_path)
     assert toy().status() == "up to date"
     assert toy(settings={"step": 0.6}).status() == "stale: code, seed or settings changed"
