@@ -45,6 +45,19 @@ def test_the_tips_stay_on_their_circles_and_move_along_them(circles, t):
     np.testing.assert_allclose((radial * normal).sum(axis=1), 0.0, atol=1e-12)
     np.testing.assert_allclose((velocity * normal).sum(axis=1), 0.0, atol=1e-12)
     np.testing.assert_allclose((velocity * radial).sum(axis=1), 0.0, atol=1e-12)
+    forward = (np.cross(radial, velocity) * normal).sum(axis=1)
+    assert (forward >= -1e-12).all(), "never back"
+
+
+def test_three_quarters_of_the_time_into_a_rest_to_rest_turn():
+    """s = pi (1 + sqrt(1/2)), as fast as after one quarter."""
+    position, velocity = Circles(**PLANE, duration=4.0).at(3.0)
+    s, rate = np.pi * (1.0 + np.sqrt(0.5)), np.pi**2 / 4.0 * np.sqrt(0.5)
+    np.testing.assert_allclose(
+        position, [[1.0 + 0.2 * np.cos(s), 2.0 + 0.2 * np.sin(s), 3.0]], atol=1e-12
+    )
+    found = 0.2 * rate * np.array([[-np.sin(s), np.cos(s), 0.0]])
+    np.testing.assert_allclose(velocity, found, atol=1e-12)
 
 
 @pytest.mark.parametrize("turn", [-3, 1, 7])

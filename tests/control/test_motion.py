@@ -52,6 +52,10 @@ def test_a_bound_is_broken_beyond_rounding_alone(motion, excess):
     assert ("contact" in replace(motion, distance=motion.distance - 0.2 - excess).broken) is beyond
 
 
+def test_links_that_just_touch_are_in_contact(motion):
+    assert replace(motion, distance=motion.distance - 0.2).broken == ("contact",)
+
+
 def test_every_broken_bound_is_named_in_order(motion):
     wrong = replace(
         motion,
