@@ -124,3 +124,10 @@ def test_a_triangle_cut_in_half_by_hand():
     assert (len(below), len(above)) == (2, 1)
     whole, none = cut(triangle, np.array([1.0, 0, 0]), 2.0)
     assert (len(whole), len(none)) == (1, 0)
+
+
+def test_a_corner_on_the_plane_belongs_to_both_parts():
+    triangle = np.array([[[1.0, 0, 0], [-1, 0, 0], [0, 1, 0]]])
+    below, above = cut(triangle, np.array([1.0, 0, 0]), 0.0)
+    assert (len(below), len(above)) == (1, 1)
+    assert (area(below), area(above)) == pytest.approx((0.5, 0.5))
