@@ -194,11 +194,12 @@ def test_a_path_of_lost_starts_adds_up(declared, stored):
     assert found["share"] == pytest.approx(found["lost"] / found["begun"])
     lost = np.isin(status, (Status.OUT_OF_REACH, Status.JOINT_LIMITS)).sum()
     assert found["lost"] <= lost
-    begun = np.isin(status, (Status.FEASIBLE, Status.COLLISION, Status.SINGULAR)).sum()
-    # every position with full paths is begun, too
-    assert found["begun"] - found["lost"] == begun
-    assert stored["claim_meets_singularity"]["singular"] == (status == Status.SINGULAR).sum()
-    assert stored["claim_meets_singularity"]["with_paths"] == begun
+    paths = np.isin(status, (Status.FEASIBLE, Status.COLLISION)).sum()
+    singular = (status == Status.SINGULAR).sum()
+    # every position with full paths is begun, too; a singular one may be
+    assert paths <= found["begun"] - found["lost"] <= paths + singular
+    assert stored["claim_meets_singularity"]["singular"] == singular
+    assert stored["claim_meets_collision"]["with_paths"] == paths
 
 
 def test_contacts_by_pair(declared, stored):
@@ -270,11 +271,6 @@ class TestCurves:
             for arm, q in zip(cell.arms, jobs.q[0], strict=True)
         ]
         assert stored["fig17"]["joint_margin"] == pytest.approx(np.degrees(min(margins)), abs=1e-6)
-
-
-def test_the_table_of_sensitivities_is_shown_with_the_largest_first(registry):
-    page = printed_point.sensitivities()
-    assert "ledger-item" in page._repr_html_() if hasattr(page, "_repr_html_") else str(page)
 
 
 def test_readings_drawn_are_all_optima(registry):
