@@ -89,7 +89,7 @@ def test_table_has_a_row_for_every_choice_and_method(registry, ablation):
     assert len(table) == 2 * len(choices)
     for _, row in table.iterrows():
         kept, goals = map(int, row["truth"].split("/"))
-        assert row["truth_low"] <= kept / goals <= row["truth_high"]
+        assert row["truth_low"] - 1e-12 <= kept / goals <= row["truth_high"] + 1e-12
 
 
 @pytest.mark.parametrize("space", ["joints", "tip"])
@@ -163,19 +163,26 @@ def test_a_search_that_failed_has_a_kind_of_failure(rows):
         for ratio in ("0.0001", "0.01", "1"):
             for name in ("traditional", "A", "V"):
                 key = f"{name}_{ratio}"
-                assert (row[f"{key}_failure"] in (None, "")) == bool(row[f"{key}_planner"])
+                assert (row[f"{key}_failure"] == "None") == bool(row[f"{key}_planner"])
 
 
 def test_rates_of_the_random_scenes(registry, rows):
     table, scenes = rates.scenes_table(), rows("random_scenes")
     assert len(table) == 3 * 8 + 1
-    for _, row in table[table["method"] != "RRT-Connect"].iterrows():
+    known = table[table["method"] != "RRT-Connect"]
+    for _, row in known.iterrows():
         name = f"{row['method']}_{row['eta_0/zeta']:g}"
-        numbers = [v for v in row.to_dict().values() if isinstance(v, int | float)]
-        true = 100 * np.mean([one[f"{name}_truth"] for one in scenes])
-        assert any(abs(float(v) - true) < 0.51 for v in numbers) or any(
-            f"{true:.0f}" in str(v) for v in row.to_dict().values()
-        )
+        for key in ("planner", "truth"):
+            share = 100 * np.mean([bool(one[f"{name}_{key}"]) for one in scenes])
+            assert any(_told(entry, share) for entry in row.drop("eta_0/zeta")), (name, key)
+
+
+def _told(entry, share):
+    """Whether an entry of a row is a share, as a number or as text, to the digits it has."""
+    try:
+        return abs(float(str(entry).split()[0].rstrip("%")) - share) <= 0.5
+    except ValueError:
+        return False
 
 
 def test_pairs_are_told_for_every_draw_set_and_ratio(registry, rows):

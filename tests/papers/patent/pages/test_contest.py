@@ -7,7 +7,7 @@ from scipy import stats
 from dualarm_repro.control.motion import JointLimits, Motion
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.penalty import Penalty, penalty
-from dualarm_repro.ledger import REGISTRY, evaluate
+from dualarm_repro.ledger import REGISTRY
 from dualarm_repro.ledger.assumptions import alternatives
 from dualarm_repro.papers.patent.document import CONTROL_STEP
 from dualarm_repro.papers.patent.pages.contest import motion as motion_page
@@ -327,8 +327,3 @@ def test_the_frozen_crossing_is_the_same_in_every_statement(stored):
     # between axes the distance is larger by both radii, which are 0.09 m here
     gap = stored["fig02"]["axis_distance"] - stored["fig02"]["distance"]
     assert gap == pytest.approx(0.18, abs=1e-9)
-
-
-def test_titles_of_claims_count_the_solvers(registry):
-    found = evaluate(registry, "patent.claim_pinv_slow")
-    assert found.result.obtained["slower"]["of"] == 100

@@ -238,15 +238,14 @@ def test_bars_of_the_figure_are_the_shares(registry):
     result = evaluate(registry, "patent.claim_task_completed").result
     figure = result.figure()
     of = result.obtained["done"]["of"]
-    drawn = sorted(
-        round(size, 6)
-        for axes in figure.axes
-        for patch in axes.patches
-        for size in (patch.get_width(), patch.get_height())
-    )
+    (axes,) = figure.axes
+    drawn = [patch.get_width() for patch in axes.patches]
+    names = [label.get_text().replace("\n", " ") for label in axes.get_yticklabels()]
     plt.close(figure)
-    for name in page._WORDS:
-        assert round(result.obtained["completed"][name] / of, 6) in drawn
+    assert names == list(page._WORDS.values())
+    completed = result.obtained["completed"]
+    assert drawn == pytest.approx([100 * completed[name] / of for name in page._WORDS])
+    assert "[%]" in axes.get_xlabel()
 
 
 @pytest.mark.parametrize(
