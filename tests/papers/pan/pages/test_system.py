@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad
 
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.papers.pan.pages.measure import system as page
@@ -69,16 +68,15 @@ def test_volumes_and_axes_of_the_page(stored, grams):
 
 
 def test_intersection_by_another_quadrature(stored, grams):
-    """(1/3) int r(u)^3 over the sphere, r the least of the three radii, with scipy's cubature."""
+    """(1/3) int r(u)^3 over the sphere, r the least of the three radii, by Gauss and trapezoids."""
+    z, weight = np.polynomial.legendre.leggauss(300)
+    angle = 2 * np.pi * np.arange(600) / 600
+    side = np.sqrt(1 - z**2)[:, np.newaxis]
+    u = np.stack(np.broadcast_arrays(side * np.cos(angle), side * np.sin(angle), z[:, None]), -1)
     inverse = np.linalg.inv(grams[:, 0])
-
-    def cube(z, angle):
-        side = np.sqrt(1 - z**2)
-        u = np.array([side * np.cos(angle), side * np.sin(angle), z])
-        return max(u @ A @ u for A in inverse) ** -1.5 / 3
-
-    # kinks of the integrand between the ellipsoids limit both quadratures to 1e-4
-    volume, _ = dblquad(cube, 0, 2 * np.pi, -1, 1, epsabs=1e-3, epsrel=1e-3)
+    cubes = np.einsum("nmi,kij,nmj->knm", u, inverse, u).max(axis=0) ** -1.5 / 3
+    volume = (weight @ cubes).sum() * 2 * np.pi / 600
+    # kinks of the integrand between the ellipsoids limit both quadratures
     assert stored["claim_beta_rule"]["intersection"] == pytest.approx(volume, rel=5e-4)
     assert volume < min(stored["claim_beta_rule"]["volumes"])
 

@@ -32,8 +32,8 @@ class TestConsistency:
                 low, high = entry.range
                 assert min(drawn) >= low
                 assert max(drawn) <= high
-                # a quasi-random set of 256 fills every quarter of a range
                 counts, _ = np.histogram(drawn, bins=4, range=(low, high))
+                # a quasi-random set of 256 fills every quarter of a range to a few draws
                 np.testing.assert_allclose(counts, len(made) / 4, rtol=0.05)
             else:
                 assert set(drawn) == set(entry.choices)
