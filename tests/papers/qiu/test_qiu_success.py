@@ -130,6 +130,18 @@ def test_calm_where_the_traditional_search_chatters(registry, tasks, measure):
     assert found["tasks"] == len(tasks)
 
 
+def test_a_search_too_short_to_chatter_is_calm(registry, monkeypatch):
+    """Its measure is missing, which is no chatter; a loud one of the traditional is needed."""
+    bar, measure = limit("claim_no_oscillation", "chatters"), "sign_changes"
+    table = quality.QUALITY.load().head(4).assign(drawn=True)
+    table[f"traditional_{measure}"] = [bar, bar, bar, np.nextafter(bar, 0)]
+    table[f"improved_{measure}"] = [np.nan, bar, np.nextafter(bar, 0), bar]
+    monkeypatch.setattr(type(quality.QUALITY), "load", lambda study: table)
+    changes = {"oscillation_measure": measure}
+    found = evaluate(registry, "qiu.claim_no_oscillation", changes).result.obtained
+    assert found["calm"] == {"count": 2, "of": 3}
+
+
 def test_cheaper_than_sampling(tasks, judged, stored):
     both = [r for r in tasks if r[f"improved_{judged}"] and r[f"rrt_connect_{judged}"]]
     own = [r["improved_evaluations"] for r in both]

@@ -98,6 +98,21 @@ class TestLottery:
             both = row[f"{prefix}_missed"] == row["improved_missed"] == 0
             assert found["both_never_missed"][k] == both
 
+    def test_outcomes_of_arrangements_made_by_hand(self, registry, monkeypatch):
+        table = pd.DataFrame(
+            {
+                "traditional_held": [8, 0, 9, 0],
+                "traditional_missed": [8, 0, 9, 1],
+                "improved_held": [0, 8, 0, 9],
+                "improved_missed": [0, 8, 1, 9],
+            }
+        )
+        monkeypatch.setattr(shares, "lottery_table", lambda: table)
+        found = shares.outcomes_of_table_2("end_effector")
+        assert found["text"].tolist() == [True, False, False, False]
+        assert found["table"].tolist() == [False, True, False, False]
+        assert found["traditional_mostly_held"].tolist() == [True, False, True, False]
+
     def test_difference_of_text_and_table(self, lottery, stored):
         values = [
             float(row["traditional_held"] >= 8 and row["improved_missed"] == 0)

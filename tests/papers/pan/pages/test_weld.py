@@ -34,6 +34,10 @@ def test_file_ends_where_it_began_one_turn_of_the_seam_later(job, length):
     assert len(table) == 73
     assert table["seam [m]"].iloc[0] == 0
     assert table["seam [m]"].iloc[-1] == pytest.approx(length, rel=1e-5)
+    # the curve is the same in every quarter of the turn, forth and back
+    np.testing.assert_allclose(table["seam [m]"][::18], length * np.arange(5) / 4, rtol=1e-5)
+    np.testing.assert_allclose(table["seam [m]"][:19] + table["seam [m]"][18:37][::-1].to_numpy(),
+                               length / 2, rtol=1e-5)  # fmt: skip
     joints = [name for name in table if name.endswith("[deg]")]
     assert joints == [f"{robot} q{j} [deg]" for robot in ROBOTS for j in range(1, 7)]
     turn = (table[joints].iloc[-1] - table[joints].iloc[0]) / 360

@@ -204,6 +204,15 @@ def test_accuracy_needs_both_completion_and_a_small_error(tiny):
     assert page._count(page._accurate(tiny, "net", 1e-4)) == {"count": 1, "of": 4}
 
 
+def test_a_task_is_allowed_if_it_ends_on_its_path(registry, nominal, monkeypatch):
+    finished, errors = [True, True, False, False], [1e-4, 2e-3, 1e-4, 2e-3]
+    table = pd.DataFrame({"alone_finished": finished, "alone_error": errors,
+                          "limits_finished": finished, "limits_error": errors})  # fmt: skip
+    assert page._alone(table).tolist() == [True, False, False, False]
+    monkeypatch.setattr(page, "colliding_tasks", lambda assumed: table)
+    assert page.admitted_tasks(nominal).index.tolist() == [0]
+
+
 def test_rows_of_the_tables(tiny):
     assert page._quality(tiny, "net") == (3, 3e-3, 3.0)  # median of 1, 9, 3
     assert page._worst(tiny, "net") == (-0.1, 3e-3, 50.0, 4.0, 0.3)
