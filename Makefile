@@ -13,10 +13,10 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger results arms metadata claims bench serve lint lock wheel clean
+.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust trust-ledger faults install-matrix supply-chain supply-chain-check results arms metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
-	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-19s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 env: $(VENV)/.installed  ## create the locked environment in .venv
 
@@ -55,8 +55,24 @@ verify: $(VENV)/.installed  ## recompute every item from nothing and compare wit
 verify-portable: $(VENV)/.installed  ## verify, then test, with the machine code of other processors
 	$(BIN)/python tools/verify_portable.py --tests
 
+trust: $(VENV)/.installed  ## attack everything, which takes hours, and write the figures of tests/README.md
+	$(BIN)/python tools/trust.py
+
+faults: $(VENV)/.installed  ## kills, full disks, bad caches, odd surroundings: count what survives
+	$(BIN)/python tools/faults.py
+
 trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
 	$(BIN)/python tools/trust_ledger.py
+
+install-matrix: $(VENV)/.installed  ## install the wheel alone for every Python, bound and extra, and use it
+	$(BIN)/python tools/install_matrix.py --resume
+
+supply-chain: $(VENV)/.installed $(VENV)/.lab $(VENV)/.bench  ## write licences and bill of materials from the locks
+	$(BIN)/python tools/supply_chain.py
+
+supply-chain-check: $(VENV)/.installed  ## bill of materials, and secrets, machine paths or registries in files
+	$(BIN)/python tools/supply_chain.py --check
+	$(BIN)/python tools/check_leaks.py
 
 arms: $(VENV)/.installed  ## recompute the table of public arms, data/results/public_arms.parquet
 	$(BIN)/python tools/public_arms.py
@@ -74,15 +90,17 @@ claims: $(VENV)/.installed  ## let tools that are not ours check citations, arch
 	$(BIN)/claims verify _build/ledger/repro.yaml --policy publication
 	$(BIN)/python tools/check_archive.py . _build/ledger
 
-bench: $(VENV)/.bench  ## ratios against peers, measured in one run
-	$(BIN)/python benchmarks/run.py
+bench: $(VENV)/.bench  ## ratios against peers in one run, stored for the performance page
+	$(BIN)/python benchmarks/run.py --threads --growth --store
 
 serve:  ## open the built book
 	$(PYTHON) -m webbrowser "file://$(CURDIR)/_build/html/index.html"
 
-lint: $(VENV)/.installed  ## static checks: style and types
+lint: $(VENV)/.installed  ## static checks: style, types, spelling
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check -q .
 	$(BIN)/mypy
+	$(BIN)/codespell
 
 lock: | $(UV)  ## resolve the three lock files again
 	$(UV) pip compile pyproject.toml --extra dev --group archive --universal --python-version 3.11 --generate-hashes -q -o requirements.lock

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from importlib.util import find_spec
 
 import daqp
 import numpy as np
-import pinocchio as pin
+from control_peers import Step, mink_step, pink_step
+from equal_work import DifferentWork, reference, same
 from timing import OURS, Row, timed
 
+from dualarm_repro.control import QuadraticProgram
 from dualarm_repro.control.controller import VelocityController
-from dualarm_repro.control.frozen import FrozenScenario
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
+from dualarm_repro.control.solvers import SOLVERS, solve
 from dualarm_repro.papers.patent.document import frozen
 
-TASK = "control step of two Pandas with avoidance"
-DT, LOOP = 1e-3, 200
-PINK_PAIRS = 8  # nearest pairs watched by the peer's barrier, fewer than the 143 watched here
+TASK, SOLVED = "control step of two Pandas with avoidance", "velocity problem, certified answer"
+LOOP = 200
+SAME = 1e-3  # [m/s], [rad/s]
 
 
 def measure() -> Iterator[Row]:
@@ -29,20 +32,64 @@ def measure() -> Iterator[Row]:
     picked = busy[:: max(1, len(busy) // LOOP)][:LOOP]
     samples = [(motion.q[k], *scenario.circles.at(motion.time[k])) for k in picked]
     controller = VelocityController(scenario.system, settings)
-    yield timed(TASK, OURS, _loop(controller.velocity, samples), len(samples))
-    yield timed(
-        TASK, "kinematics and rows here, DAQP", _loop(_daqp(controller), samples), len(samples)
+    steps: dict[str, Step] = {
+        OURS: controller.velocity,
+        "kinematics and rows here, DAQP": _daqp(controller),
+    }
+    for module, name, peer in (
+        ("pink", "pin-pink, self-collision barrier", pink_step),
+        ("mink", "mink, collision avoidance limit", mink_step),
+    ):
+        if find_spec(module):
+            steps[name] = peer(scenario, settings)
+    for name, step in steps.items():
+        check = _same_motion(step, controller, samples)
+        yield timed(TASK, name, _loop(step, samples), len(samples), check=check)
+    yield from _solvers(controller, samples)
+
+
+def _same_motion(
+    step: Step, controller: VelocityController, samples: Sequence[tuple]
+) -> Callable[[], str]:
+    """Tips move as asked, and no pair of bodies comes nearer faster than the damper allows."""
+
+    def check() -> str:
+        off = approach = 0.0
+        for sample in samples:
+            x, p = step(*sample), controller.problem(*sample)
+            off = max(off, float(np.abs(p.A @ x - p.b).max()))
+            approach = max(approach, float((p.G @ x - p.h).max(initial=0.0)))
+        if not (off <= SAME and approach <= SAME):
+            raise DifferentWork(f"off the path by {off:.1e}, too near by {approach:.1e} m/s")
+        return f"tips as asked, arms apart to {SAME:.0e} m/s"
+
+    return check
+
+
+def _solvers(controller: VelocityController, samples: Sequence[tuple]) -> Iterator[Row]:
+    """The problems alone: the same minimiser from every solver, certified by each."""
+    problems = [controller.problem(*sample) for sample in samples]
+    for solver in SOLVERS:
+        if solver == "cvxpy":  # a language for problems, not a solver for a loop
+            continue
+        ours = solver == "active_set"
+        check = reference() if ours else _same_minimisers(problems, solver)
+        call = partial(_solve_all, problems, solver)
+        yield timed(SOLVED, OURS if ours else solver, call, len(problems), check=check)
+
+
+def _same_minimisers(problems: Sequence[QuadraticProgram], solver: str) -> Callable[[], str]:
+    return same(
+        lambda: [solve(p).x for p in problems], lambda: [solve(p, solver).x for p in problems], SAME
     )
-    if find_spec("pink"):
-        yield timed(
-            TASK,
-            "pin-pink, self-collision barrier",
-            _loop(_pink(scenario, settings), samples),
-            len(samples),
-        )
 
 
-def _loop(step: Callable, samples: list) -> Callable[[], None]:
+def _solve_all(problems: Sequence[QuadraticProgram], solver: str) -> None:
+    for problem in problems:
+        solve(problem, solver)
+
+
+def _loop(step: Step, samples: Sequence[tuple]) -> Callable[[], None]:
     def run() -> None:
         for sample in samples:
             step(*sample)
@@ -50,92 +97,14 @@ def _loop(step: Callable, samples: list) -> Callable[[], None]:
     return run
 
 
-def _daqp(controller: VelocityController) -> Callable:
-    def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> None:
+def _daqp(controller: VelocityController) -> Step:
+    def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         p = controller.problem(q, position, velocity)
         m = len(p.b)
         rows, sense = np.vstack([p.A, p.G]), np.zeros(p.size + m + len(p.h), dtype=np.int32)
         sense[p.size : p.size + m] = 5
         upper = np.concatenate([p.upper, p.b, p.h])
         lower = np.concatenate([p.lower, p.b, np.full(len(p.h), -1e30)])
-        daqp.solve(np.eye(p.size), -p.target, rows, upper, lower, sense)
+        return daqp.solve(np.eye(p.size), -p.target, rows, upper, lower, sense)[0]
 
     return step
-
-
-def _pink(scenario: FrozenScenario, settings: ControllerSettings) -> Callable:
-    """Both arms in one model with their capsules; the same task, limits and damper."""
-    import pink
-    from pink.barriers import SelfCollisionBarrier
-    from pink.limits import ConfigurationLimit, VelocityLimit
-    from pink.tasks import FrameTask
-
-    model, geometry, tips = _two_arm_model(scenario)
-    tasks = [
-        FrameTask(tip, position_cost=1.0, orientation_cost=0.0, gain=DT * settings.feedback)
-        for tip in tips
-    ]
-    barrier = SelfCollisionBarrier(
-        PINK_PAIRS, gain=settings.damper_gain, safe_displacement_gain=0.0, d_min=settings.inner
-    )
-    tighter = model.copy()
-    tighter.lowerPositionLimit += settings.limit_margin
-    tighter.upperPositionLimit -= settings.limit_margin
-    limits = [
-        ConfigurationLimit(tighter, config_limit_gain=DT * settings.limit_gain),
-        VelocityLimit(model),
-    ]
-    configuration = pink.Configuration(
-        model,
-        model.createData(),
-        scenario.q0,
-        collision_model=geometry,
-        collision_data=geometry.createData(),
-    )
-
-    def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        configuration.update(q)
-        for task, goal, rate in zip(tasks, position, velocity, strict=True):
-            # The task's error is corrected by its gain; the rate of the path is added to the goal.
-            shifted = goal + rate / settings.feedback
-            task.set_target(
-                pin.SE3(configuration.get_transform_frame_to_world(task.frame).rotation, shifted)
-            )
-        return pink.solve_ik(
-            *(configuration, tasks, DT),
-            solver="daqp",
-            barriers=[barrier],
-            limits=limits,
-            damping=1e-9,
-            safety_break=False,
-        )
-
-    return step
-
-
-def _two_arm_model(scenario: FrozenScenario) -> tuple[pin.Model, pin.GeometryModel, list[str]]:
-    """One model of both arms with all pairs of capsules of different arms."""
-    model, geometry, tips, owners = pin.Model(), pin.GeometryModel(), [], []
-    for placed in scenario.system.arms:
-        arm, joints = placed.arm, [0]
-        for k in range(1, arm.model.njoints):
-            placement = arm.model.jointPlacements[k]
-            if k == 1:
-                placement = placed.placement * placement
-            name, speed = f"{placed.name}_{arm.model.names[k]}", arm.velocity_limit[k - 1 : k]
-            limits = (np.full(1, 1e3), speed, arm.lower[k - 1 : k], arm.upper[k - 1 : k])
-            joints.append(model.addJoint(joints[-1], arm.model.joints[k], placement, name, *limits))
-        flange = arm.model.frames[arm.flange_id]
-        tips.append(f"{placed.name}_tip")
-        model.addFrame(pin.Frame(tips[-1], joints[-1], 0, flange.placement, pin.FrameType.OP_FRAME))
-        for shape in arm.geometry.geometryObjects:
-            joint = joints[shape.parentJoint]
-            pose = placed.placement * shape.placement if joint == 0 else shape.placement
-            name = f"{placed.name}_{shape.name}"
-            geometry.addGeometryObject(pin.GeometryObject(name, joint, pose, shape.geometry))
-            owners.append((placed.name, joint))
-    for i, (left, a) in enumerate(owners):
-        for j, (right, b) in enumerate(owners[i + 1 :], start=i + 1):
-            if left != right and (a or b):
-                geometry.addCollisionPair(pin.CollisionPair(i, j))
-    return model, geometry, tips

@@ -1,7 +1,9 @@
-"""Side-by-side timings on one thread: ``python benchmarks/run.py [--json] [SUITE ...]``.
+"""Side-by-side timings against peers: ``python benchmarks/run.py [--json] [SUITE ...]``.
 
-A suite is a module of this folder with a function ``measure()`` that yields rows. Only ratios
-within one run mean something: machines differ, and so does their load.
+A suite is a module of this folder with a function ``measure()`` that yields rows. The work of all
+rows of a task is checked to be the same, then they are called by turns. Only ratios within one run
+mean something: machines differ, and so does their load. Everything runs on one thread, but rows
+that say otherwise, which ``--threads`` adds.
 """
 
 from __future__ import annotations
@@ -9,91 +11,88 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import platform
-from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
+import sys
+import traceback
 from pathlib import Path
 
-from rich.console import Console
-from rich.table import Table
-from timing import OURS, Row
-
-NOT_SUITES = {"run", "timing"}
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-LIBRARIES = (
-    "numpy",
-    "numba",
-    "pin",
-    "coal",
-    "roboticstoolbox-python",
-    "eaik",
-    "pin-pink",
-    "ompl",
-)
+BLAS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-def main() -> None:
-    """Run the suites and print a table, or JSON."""
-    suites = sorted(p.stem for p in Path(__file__).parent.glob("*.py") if p.stem not in NOT_SUITES)
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suites", nargs="*", metavar="SUITE", help=f"default: {' '.join(suites)}")
-    parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
-    options = parser.parse_args()
-    if unknown := set(options.suites) - set(suites):
-        parser.error(f"suite {unknown.pop()!r}: expected one of {', '.join(suites)}")
-    os.environ.update(dict.fromkeys(THREADS, "1"))  # before a suite imports numpy
-    rows = [row for name in options.suites or suites for row in import_module(name).measure()]
-    tasks = list(dict.fromkeys(row.task for row in rows))
-    rows.sort(key=lambda row: tasks.index(row.task))
-    report = {"cpu": _cpu(), "python": platform.python_version(), "libraries": _versions()}
-    if options.json:
-        print(json.dumps({**report, "rows": [_entry(row, rows) for row in rows]}, indent=2))
-    else:
-        _print(report, [_entry(row, rows) for row in rows])
+def main() -> int:
+    """Run suites and growth curves; 1 if a peer does other work or a claim names no row."""
+    from suites import names
 
+    known = names()
+    options = _options(known)
+    os.environ.update(dict.fromkeys(BLAS, "1"))  # before a suite imports numpy
+    if not options.threads:
+        os.environ["NUMBA_NUM_THREADS"] = "1"
 
-def _entry(row: Row, rows: list[Row]) -> dict[str, object]:
-    ours = next(r for r in rows if r.task == row.task and r.implementation == OURS)
-    return {**vars(row), "ratio": row.microseconds / ours.microseconds}
+    import growth
+    import growth_claims
+    import suites
+    from machine import load, machine
+    from peers import missing, versions
+    from printed import print_report
 
-
-def _print(report: dict[str, object], entries: list[dict[str, object]]) -> None:
-    table = Table("task", "implementation", title=f"{report['cpu']}, one thread, medians")
-    table.add_column("us per item", justify="right")
-    table.add_column(f"times {OURS}", justify="right")
-    for entry, before in zip(entries, [None, *entries], strict=False):
-        if before and before["task"] != entry["task"]:
-            table.add_section()
-        table.add_row(
-            entry["task"],
-            entry["implementation"],
-            f"{entry['microseconds']:.3f}",
-            f"{entry['ratio']:.1f}",
-        )
-    console = Console(width=110)
-    console.print(table)
-    console.print(", ".join(f"{name} {number}" for name, number in report["libraries"].items()))
-
-
-def _versions() -> dict[str, str]:
-    found = {}
-    for name in LIBRARIES:
+    report = {
+        **machine(), "libraries": versions(), "missing": missing(), "load": {},
+        "rows": [], "claims": [], "different": [], "growth": [],
+    }  # fmt: skip
+    broken = []
+    for name in options.suites or known:
         try:
-            found[name] = version(name)
-        except PackageNotFoundError:
+            found = suites.run(name, options.rounds, options.budget, options.threads)
+        except Exception:  # the other suites, which took long, are not lost
+            print(f"suite {name} ended early:\n{traceback.format_exc()}", file=sys.stderr)
+            broken.append(name)
             continue
-    return found
-
-
-def _cpu() -> str:
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-        return next(
-            line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")
+        report["load"][name] = found.pop("load")
+        for key, values in found.items():
+            report[key] += values
+    if options.growth:
+        before = load()
+        report["growth"] = growth.curves(
+            min(options.rounds, growth.ROUNDS), growth.SHARE * options.budget
         )
-    except (OSError, StopIteration):
-        return platform.processor() or platform.machine()
+        report["claims"] += growth_claims.judged(report["growth"])
+        report["load"]["growth"] = [before, load()]
+    if options.store and not broken:
+        _store(report)
+    if options.json:
+        print(json.dumps(report, indent=2))
+    else:
+        print_report(report)
+    return 1 if report["different"] or broken else 0
+
+
+def _store(report: dict[str, object]) -> None:
+    from dualarm_repro.ledger.files import to_json, write_text
+    from dualarm_repro.view.benchmark_run import stored_path
+
+    write_text(stored_path(), to_json(report))
+
+
+def _options(known: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help=f"default: {' '.join(known)}")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of tables")
+    parser.add_argument("--growth", action="store_true", help="measure the growth curves too")
+    parser.add_argument("--threads", action="store_true", help="time rows of several threads too")
+    parser.add_argument("--store", action="store_true", help="write data/results/benchmarks.json")
+    parser.add_argument("--rounds", type=int, default=15, help="at most (default 15)")
+    parser.add_argument("--budget", type=float, default=20.0, help="seconds a task (default 20)")
+    options = parser.parse_args()
+    if unknown := set(options.suites) - set(known):
+        parser.error(f"suite {unknown.pop()!r}: expected one of {', '.join(known)}")
+    if options.rounds < 1:
+        parser.error(f"--rounds {options.rounds}: expected at least 1")
+    if options.store and options.suites:
+        parser.error("--store keeps a run of every suite: name none")
+    return options
 
 
 if __name__ == "__main__":
-    main()
+    # Allow `python benchmarks/run.py` from a clone without installation of the package.
+    sys.path.append(str(Path(__file__).resolve().parents[1]))
+    sys.exit(main())

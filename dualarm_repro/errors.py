@@ -49,11 +49,15 @@ class LedgerError(DualArmError):
 
 def shorten(value: object, limit: int = 120) -> str:
     """``repr`` of a value on one line, cut to ``limit`` characters; numpy numbers as plain ones."""
-    text = " ".join(repr(_plain(value)).split())
+    try:
+        text = " ".join(repr(_plain(value)).split())
+    except Exception:  # a list that holds itself, a number of too many digits, a broken __repr__
+        text = f"a {type(value).__name__} that cannot be printed"
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
 def _plain(value: object) -> object:
+    """Numpy numbers and arrays as plain ones; of many only as many as are printed."""
     if isinstance(value, dict):
         return {key: _plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):

@@ -8,6 +8,7 @@ the field names of the named tuples that it is given, whose classes may be anywh
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
@@ -18,10 +19,16 @@ from typing import Any
 import llvmlite
 import numba
 from numba import njit, types
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.caching import (
+    CompileResultCacheImpl,
+    FunctionCache,
+    NullCache,
+    _CacheLocator,
+)
 
 from .cache_folder import cache_folder
 from .sources import graph
+from .terminal import watched
 
 
 @cache
@@ -72,8 +79,26 @@ class _Implementation(CompileResultCacheImpl):
     _locator_classes = [_Locator]  # noqa: RUF012 - the name and type numba looks for
 
 
+@cache
+def _say_once() -> None:
+    """Tell who watches, once in a process, what the first use of a function takes its time for."""
+    if watched():
+        print("Compiling for this machine; the next time this is quick.", file=sys.stderr)
+
+
+class _NoCache(NullCache):
+    def load_overload(self, sig: Any, target_context: Any) -> None:
+        _say_once()
+
+
 class _Cache(FunctionCache):
     _impl_class = _Implementation
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        found = super().load_overload(sig, target_context)
+        if found is None:
+            _say_once()
+        return found
 
     def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
         _, *rest = super()._index_key(sig, codegen)
@@ -90,10 +115,22 @@ def _layout(kind: Any) -> Any:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile a function with numba; a division by zero gives infinity, without a branch for it."""
-    compiled: Any = njit(error_model="numpy")(function)
+    """Compile a function with numba; a division by zero gives infinity, without a branch for it.
+
+    It runs without the interpreter's lock, so that threads can share the cores.
+    """
+    return _kept(function, njit(error_model="numpy", nogil=True)(function))
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """The same for a function that is part of a loop over lanes, which only becomes SIMD code
+    without a call in it."""
+    return _kept(function, njit(error_model="numpy", nogil=True, forceinline=True)(function))
+
+
+def _kept(function: Callable[..., Any], compiled: Any) -> Any:
     try:
         compiled._cache = _Cache(function)
     except RuntimeError:  # no folder to keep machine code in
-        pass
+        compiled._cache = _NoCache()
     return compiled

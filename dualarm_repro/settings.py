@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated, Any, Self, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from .datafiles import from_validation
+from .datafiles import from_validation, with_known_fields
 from .errors import InputError, UnknownNameError
 
 Positive = Annotated[float, Field(gt=0)]
@@ -47,12 +47,17 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _known(cls, values: Any) -> Any:
+        return with_known_fields(cls, values)
+
     def __init__(self, **values: Any) -> None:
         try:
             super().__init__(**values)
         except ValidationError as error:
             first, found = error.errors()[0], from_validation(type(self).__name__, error)
-            field = found.field if first["loc"] else "combination of values"
+            field = found.field if found.field != "file" else "combination of values"
             kind = UnknownNameError if first["type"] == "enum" else InputError
             raise kind(found.source, field, found.value, found.expected) from None
 

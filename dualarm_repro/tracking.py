@@ -9,10 +9,11 @@ from contextvars import ContextVar
 from functools import _make_key, wraps
 from threading import RLock
 from typing import Any, ParamSpec, TypeVar
-from weakref import WeakSet
+from weakref import WeakKeyDictionary, WeakSet
 
 P = ParamSpec("P")
 T = TypeVar("T")
+Owner = TypeVar("Owner")
 _OPEN: ContextVar[tuple[set[str], ...]] = ContextVar("open recordings", default=())
 
 
@@ -129,3 +130,22 @@ def memo(maxsize: int | None = None) -> Callable[[Callable[P, T]], Callable[P, T
         return answer
 
     return decorate
+
+
+def kept_with_owner(function: Callable[[Owner], T]) -> Callable[[Owner], T]:
+    """Decorator: the answer for an object is kept as long as the object lives, and no longer.
+
+    ``functools.lru_cache`` would keep the object alive, meshes and all. The answer must not refer
+    to it.
+    """
+    kept: WeakKeyDictionary[Any, T] = WeakKeyDictionary()
+
+    @wraps(function)
+    def answer(owner: Owner) -> T:
+        try:
+            return kept[owner]
+        except KeyError:
+            value = kept[owner] = function(owner)
+            return value
+
+    return answer

@@ -36,7 +36,7 @@ def _package(tmp_path, files):
     """A package with our way of compiling, and these files."""
     package = tmp_path / "src" / "dualarm_repro"
     package.mkdir(parents=True)
-    for name in ("kernel.py", "sources.py", "cache_folder.py"):
+    for name in ("kernel.py", "sources.py", "cache_folder.py", "terminal.py"):
         shutil.copy(Path(dualarm_repro.__file__).parent / name, package / name)
     for name, text in files.items():
         (package / name).write_text(text)

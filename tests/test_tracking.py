@@ -1,7 +1,10 @@
 """Inputs are noted, also where a memo answers."""
 
+import gc
+from weakref import ref
+
 from dualarm_repro import load_arm
-from dualarm_repro.tracking import memo, note, recording, unnoted
+from dualarm_repro.tracking import kept_with_owner, memo, note, recording, unnoted
 
 
 def test_recordings_nest():
@@ -55,3 +58,23 @@ def test_a_document_that_is_read_on_the_way_is_noted_by_the_parts_that_are_used(
     with recording() as found, unnoted():
         note("a")
     assert found == set()
+
+
+def test_what_is_kept_with_its_owner_goes_with_it():
+    """The owner is not kept alive by the answer, and another one is asked anew."""
+    asked = []
+
+    class Owner:
+        pass
+
+    @kept_with_owner
+    def size(owner):
+        asked.append(1)
+        return len(asked)
+
+    owner, other = Owner(), Owner()
+    assert [size(owner), size(owner), size(other)] == [1, 1, 2]
+    seen = ref(owner)
+    del owner
+    gc.collect()
+    assert seen() is None

@@ -28,7 +28,11 @@ _FILES = {
     "repro.yaml": "Numbers of the book, for `claims verify` to look up in data/results",
     "pyproject.toml": "Name, version, licence and dependencies",
     "requirements.lock": "Every dependency with its hashes",
+    "SECURITY.md": "What is trusted input, and what is promised",
+    "data/licences.csv": "Licences of everything that the locks install",
+    "data/sbom.cdx.json": "Bill of materials of the locks, CycloneDX",
     "data/headlines.yaml": "Which numbers repro.yaml states",
+    "data/results/benchmarks.json": "Times beside other libraries, one run on one machine",
     "data/papers/inventory.csv": "Every figure, table, equation and claim that must be handled",
 }
 _CODE = {"pyproject.toml", "requirements.lock"}
@@ -42,6 +46,10 @@ _FOLDERS = {
     ("data/results", "*.parquet"): "Cells of the stored study {}",
     ("data/results/robustness", "*.json"): "Settings of the draws behind the verdict on {}",
     ("data/results/robustness", "*.parquet"): "Draws behind the verdict on {}",
+}
+#: Files of those folders that are something else.
+_ALONE = {
+    "data/results/install_matrix.json": "Where the wheel was installed and used, and how it ended",
 }
 
 
@@ -62,7 +70,8 @@ def parts() -> dict[str, Part]:
     found = {name: Part(text, name in _CODE) for name, text in _FILES.items()}
     for (folder, pattern), text in _FOLDERS.items():
         for path in ROOT.joinpath(folder).glob(pattern):
-            found[f"{folder}/{path.name}"] = Part(text.format(path.stem))
+            name = f"{folder}/{path.name}"
+            found.setdefault(name, Part(_ALONE.get(name, text.format(path.stem))))
     return found
 
 

@@ -2,7 +2,7 @@
 
 from .arm import Arm
 from .catalog import arm_names, load_arm
-from .exclusions import Evidence, Exclusion
+from .exclusions import Evidence, Exclusion, Neighbours
 from .joint_type import JointType
 from .occupancy import Occupancy, RotationVolume, occupancy, rotation_volumes
 from .robot_file import DHRobot, MirrorRobot, URDFRobot, load_robot_file
@@ -18,6 +18,7 @@ __all__ = [
     "Extents",
     "JointType",
     "MirrorRobot",
+    "Neighbours",
     "Occupancy",
     "RotationVolume",
     "Shapes",

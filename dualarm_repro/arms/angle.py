@@ -11,6 +11,9 @@ _DECIMAL = r"[+-]?\d+(?:\.\d+)?"
 _DEGREES = re.compile(rf"({_DECIMAL})\s*deg")
 _OF_PI = re.compile(r"([+-]?)(?:(\d+)\s*\*\s*)?pi(?:\s*/\s*(\d+))?")
 
+LARGEST = (
+    1e6  #: in radians, or in multiples of pi: of no larger angle is anything left of its turns
+)
 EXPECTED = 'an angle: a number in radians, "NN deg", or a multiple of pi such as "-pi/2"'
 
 
@@ -31,16 +34,25 @@ class Angle(NamedTuple):
         """
         if isinstance(value, cls):
             return value
-        if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        found = cls._read(value)
+        if found is None or abs(found.coefficient) > LARGEST:
+            raise ValueError(EXPECTED)
+        return found
+
+    @classmethod
+    def _read(cls, value: Any) -> Angle | None:
+        if isinstance(value, int) and not isinstance(value, bool):
+            return cls(Fraction(value), of_pi=False)
+        if isinstance(value, float) and math.isfinite(value):
             return cls(Fraction(repr(value)), of_pi=False)
-        if isinstance(value, str):
+        if isinstance(value, str) and len(value) < 400:
             if match := _DEGREES.fullmatch(value.strip()):
                 return cls(Fraction(match[1]) / 180)
             if match := _OF_PI.fullmatch(value.strip()):
                 sign, times, over = match.groups(default="")
                 if over.strip("0") or not over:
                     return cls(Fraction(f"{sign}{times or 1}") / int(over or 1))
-        raise ValueError(EXPECTED)
+        return None
 
     def __neg__(self) -> Angle:
         return self._replace(coefficient=-self.coefficient)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 import pinocchio as pin
 from example_robot_data import getModelPath
 
+from ..arguments import checked
 from ..datafiles import data_path
 from ..errors import DataFileError, InputError, UnknownNameError
+from ..input_files import path_of
 from ..settings import choice
 from .arm import Arm
 from .capsules import enclosing_capsules
@@ -25,6 +27,7 @@ def arm_names() -> list[str]:
     return sorted(path.stem for path in data_path("robots").glob("*.yaml"))
 
 
+@checked
 def load_arm(
     name_or_path: str | Path,
     *,
@@ -58,6 +61,8 @@ def load_arm(
 
     Raises
     ------
+    InputError
+        An argument of the wrong type.
     UnknownNameError
         No arm, flange, joint or kind of shapes of that name; the message lists those there are.
     DataFileError
@@ -67,12 +72,11 @@ def load_arm(
         The file is no serial chain.
     """
     names = arm_names()
-    if "\0" in str(name_or_path):
-        raise InputError("load_arm", "name", str(name_or_path), "a name or a path")
+    given_path = path_of("load_arm", "name", name_or_path)
     if str(name_or_path) in names:
         path, name = data_path("robots", f"{name_or_path}.yaml"), str(name_or_path)
     else:
-        path = Path(name_or_path)
+        path = given_path
         name = path.stem
         if not path.suffix and not path.exists():
             expected = f"one of {', '.join(names)}, or the path of a URDF or YAML file"
@@ -80,6 +84,8 @@ def load_arm(
     kind = None if shapes is None else choice(Shapes, "load_arm", "shapes", shapes)
     if not isinstance(lock, Mapping | None):
         raise InputError("load_arm", "lock", lock, "a mapping of joint name to angle or length")
+    if not isinstance(flange, str | None):
+        raise InputError("load_arm", "flange", flange, "the name of a link")
     folders = _folders(packages)
     if path.suffix not in (".yaml", ".yml"):
         urdf = URDF(path, flange, lock, kind or Shapes.FITTED, folders)
@@ -102,10 +108,9 @@ def load_arm(
 
 def _folders(packages: object) -> tuple[Path, ...]:
     given = [packages] if isinstance(packages, str | Path) else packages
-    try:
-        return tuple(Path(folder) for folder in given)  # type: ignore[attr-defined]
-    except TypeError:
-        raise InputError("load_arm", "packages", packages, "paths of folders") from None
+    if not isinstance(given, Iterable):
+        raise InputError("load_arm", "packages", packages, "paths of folders")
+    return tuple(path_of("load_arm", "packages", folder) for folder in given)
 
 
 def _from_urdf_robot(
@@ -140,10 +145,11 @@ def _urdf_path(path: Path, field: str, urdf: str) -> Path:
 
 def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
     capsules: Callable[[], pin.GeometryModel] = partial(_enclosed, solids)
-    exclusions = hulls = None
+    exclusions = hulls = neighbours = None
     if solids.shapes in (Shapes.FITTED, Shapes.VISUAL):
         fitted = FittedLinks(solids)
         capsules, exclusions, hulls = fitted.geometry, fitted.exclusions, fitted.hulls
+        neighbours = fitted.neighbours
     return Arm(
         name,
         title,
@@ -153,6 +159,7 @@ def _from_urdf(name: str, title: str, urdf: URDF, solids: URDF) -> Arm:
         types=urdf.types,
         exclusions=exclusions,
         hulls=hulls,
+        neighbours=neighbours,
         solids=solids.solids,
         remarks=solids.remarks,
     )

@@ -1,15 +1,32 @@
-"""Constant transforms of a Pinocchio model, for the batch kernels."""
+"""A serial chain: constant transforms C_0 ... C_n in which every joint axis is z."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
 from ..errors import UnsupportedArmError
-from .kernels import Chain
-from .sliding import SlidingChain
 
 _Z = np.array([0.0, 0.0, 1.0])
+
+
+class Chain(NamedTuple):
+    """T(q) = C_0 Rz(q_1) C_1 ... Rz(q_n) C_n: ``rotation`` (n+1, 3, 3) and ``translation``
+    (n+1, 3) [m] of C_0 ... C_n."""
+
+    rotation: np.ndarray
+    translation: np.ndarray
+
+
+class SlidingChain(NamedTuple):
+    """Constant transforms as in :class:`Chain`, and which joints slide, Tz(q) for Rz(q): ``slides``
+    (n,) of bool."""
+
+    rotation: np.ndarray
+    translation: np.ndarray
+    slides: np.ndarray
 
 
 def chain_of(name: str, model: pin.Model, flange: int) -> Chain | SlidingChain:

@@ -1,4 +1,4 @@
-"""Pairs of shapes of one arm that are not watched, each with the evidence for it."""
+"""Pairs of shapes of one arm that are not watched, and neighbours that are, with the evidence."""
 
 from __future__ import annotations
 
@@ -51,6 +51,32 @@ class Exclusion:
         return (
             f"{self.first} - {self.second}: {self.evidence}, shapes touch in {self.touching} and "
             f"capsules in {self.flagged} of {self.sampled} postures"
+        )
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Two shapes that a joint joins and that are watched all the same.
+
+    They are apart at the home pose, and touch for some values of the joint.
+
+    Attributes
+    ----------
+    first, second : str
+        Names of the collision shapes.
+    touching, sampled : int
+        For how many of the sampled values of the joint they touch.
+    """
+
+    first: str
+    second: str
+    touching: int
+    sampled: int
+
+    def __str__(self) -> str:
+        return (
+            f"{self.first} - {self.second}: adjacent and watched, apart at the home pose and in "
+            f"touch for {self.touching} of {self.sampled} values of their joint"
         )
 
 

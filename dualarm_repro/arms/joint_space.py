@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import Number, checked
 from .joint_type import JointType
 from .poses import check_configurations
 
@@ -42,6 +43,7 @@ class JointSpace:
         """Which joints are continuous (nq,) of bool."""
         return np.array([kind is JointType.CONTINUOUS for kind in self.types])
 
+    @checked
     def limits(self, enforced: bool = True) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper limits of the joints (nq,) [rad, m], infinite unless ``enforced``; those
         of a continuous joint always are."""
@@ -55,6 +57,7 @@ class JointSpace:
         for_ever = self.turns_for_ever
         return np.where(for_ever, -np.pi, self.lower), np.where(for_ever, np.pi, self.upper)
 
+    @checked
     def within_limits(self, q: ArrayLike, tolerance: float = 0.0) -> bool | np.ndarray:
         """Whether lower - tolerance <= q <= upper + tolerance [rad, m], bool or (N,) of bool."""
         q = self.configurations(q)
@@ -62,7 +65,8 @@ class JointSpace:
         every: np.ndarray = np.all(inside, axis=-1)
         return bool(every) if q.ndim == 1 else every
 
-    def random_configurations(self, n: int, rng: np.random.Generator) -> np.ndarray:
+    @checked
+    def random_configurations(self, n: Number, rng: np.random.Generator) -> np.ndarray:
         """``n`` configurations, uniform within :attr:`usual_range`, (n, nq) [rad, m]."""
         lower, upper = self.usual_range
         q = rng.random((n, self.nq))
@@ -70,6 +74,7 @@ class JointSpace:
         q += lower
         return q
 
+    @checked
     def difference(self, start: ArrayLike, end: ArrayLike) -> np.ndarray:
         """The shortest motion from one posture to another, end = start + difference.
 
@@ -88,6 +93,7 @@ class JointSpace:
         short = way - 2.0 * np.pi * np.round(way / (2.0 * np.pi))
         return np.where(self.turns_for_ever, short, way)
 
+    @checked
     def nearest(self, q: ArrayLike, reference: ArrayLike) -> np.ndarray:
         """The same posture with its continuous joints turned as near to ``reference`` as can be.
 
@@ -98,6 +104,7 @@ class JointSpace:
         turns = np.round((q - self.configurations(reference)) / (2.0 * np.pi))
         return np.where(self.turns_for_ever, q - 2.0 * np.pi * turns, q)
 
+    @checked
     def distance(self, start: ArrayLike, end: ArrayLike) -> float | np.ndarray:
         """Euclidean length of :meth:`difference`, radians and metres counted alike."""
         length = np.linalg.norm(self.difference(start, end), axis=-1)

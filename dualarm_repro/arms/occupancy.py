@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Count, Positive, Rows3, Seed, checked
 from ..errors import InputError
 from ..kernel import kernel
 from .arm import Arm
@@ -22,6 +23,7 @@ from .arm import Arm
 SAMPLES = 2_000_000
 AZIMUTHS = 180  # bins of 2 degrees
 _CHUNK = 100_000
+_LARGEST = 200_000_000  # cells, a byte each
 _FULL_TURN = 2.0 * math.pi - 1e-9
 
 
@@ -59,7 +61,8 @@ class Occupancy:
     rotation: np.ndarray
     origin: np.ndarray
 
-    def contains(self, points: np.ndarray) -> np.ndarray:
+    @checked
+    def contains(self, points: Rows3) -> np.ndarray:
         """Whether points (n, 3) of the base frame [m] lie in reachable cells, (n,) of bool."""
         local = np.ascontiguousarray(points - self.origin) @ self.rotation
         return _lookup(local, self.cell, self.bottom, self.covered)
@@ -86,7 +89,10 @@ class Occupancy:
         return box @ self.rotation.T + self.origin
 
 
-def occupancy(arm: Arm, cell: float, rng: np.random.Generator, samples: int = SAMPLES) -> Occupancy:
+@checked
+def occupancy(
+    arm: Arm, cell: Positive, rng: np.random.Generator, samples: Count = SAMPLES
+) -> Occupancy:
     """Mark the cells that a uniform sample of the joints reaches.
 
     Parameters
@@ -102,13 +108,13 @@ def occupancy(arm: Arm, cell: float, rng: np.random.Generator, samples: int = SA
     InputError
         ``cell`` or ``samples`` is not positive.
     """
-    if not (cell > 0 and math.isfinite(cell)):
-        raise InputError("occupancy", "cell", cell, "a positive length [m]")
-    if samples < 1:
-        raise InputError("occupancy", "samples", samples, "a positive number")
     turn = arm.upper[0] - arm.lower[0]
     azimuths = 1 if turn >= _FULL_TURN else AZIMUTHS
-    size = math.ceil(np.linalg.norm(arm.chain.translation[1:], axis=1).sum() / cell) + 1
+    length = float(np.linalg.norm(arm.chain.translation[1:], axis=1).sum())
+    if 2 * (length / cell + 1) ** 2 * azimuths > _LARGEST:
+        expected = f"cells of the {length:g} m of the arm, {_LARGEST} at most"
+        raise InputError("occupancy", "cell", cell, expected)
+    size = math.ceil(length / cell) + 1
     rotation, origin = arm.chain.rotation[0], arm.chain.translation[0]
     counts = np.zeros((size, 2 * size), dtype=np.uint32)
     marked = np.zeros((size, 2 * size, azimuths), dtype=np.bool_)
@@ -120,8 +126,9 @@ def occupancy(arm: Arm, cell: float, rng: np.random.Generator, samples: int = SA
     return Occupancy(cell, -size * cell, counts, covered, rotation, origin)
 
 
+@checked
 def rotation_volumes(
-    arm: Arm, cells: Sequence[float], seed: int, samples: int = SAMPLES
+    arm: Arm, cells: Sequence[Positive], seed: Seed, samples: Count = SAMPLES
 ) -> list[RotationVolume]:
     """Volume of the workspace for several cell sizes [m] on one sample: a convergence table.
 

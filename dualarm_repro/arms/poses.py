@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
 from ..errors import ConfigurationError, InputError
 from ..kernel import kernel
 
@@ -30,7 +31,7 @@ def check_poses(source: str, T: ArrayLike, ndim: int) -> np.ndarray:
     shape = "(4, 4)" if ndim == 2 else "(N, 4, 4)"
     expected = f"{shape} finite numbers, rotation and translation [m]"
     try:
-        poses = np.ascontiguousarray(T, dtype=float)
+        poses = np.ascontiguousarray(real_array(T))
     except (TypeError, ValueError):
         raise InputError(source, "T", T, expected) from None
     if poses.ndim != ndim or poses.shape[-2:] != (4, 4):
@@ -52,7 +53,7 @@ def check_configurations(source: str, q: ArrayLike, nq: int, expected: str) -> n
         Wrong shape, NaN or infinity.
     """
     try:
-        array = np.asarray(q, dtype=float)
+        array = real_array(q)
     except (TypeError, ValueError):
         raise ConfigurationError(source, "q", q, expected) from None
     if array.ndim not in (1, 2) or array.shape[-1] != nq:

@@ -13,8 +13,10 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import BeforeValidator, Field, PlainSerializer, TypeAdapter, model_validator
 
-from ..datafiles import StrictModel, Text, read_yaml
+from ..arguments import checked
+from ..datafiles import StrictModel, Text
 from ..errors import DataFileError
+from ..written import read_written
 from .angle import EXPECTED, Angle
 from .shapes import Shapes
 
@@ -200,6 +202,7 @@ _KINDS: dict[str, type[DHRobot | URDFRobot | MirrorRobot]] = {
 }
 
 
+@checked
 def load_robot_file(path: Path) -> RobotFile:
     """Read and check one robot file.
 
@@ -208,7 +211,7 @@ def load_robot_file(path: Path) -> RobotFile:
     DataFileError
         With the first offending field, its value and what was expected.
     """
-    content = read_yaml(path)
+    content = read_written(path)
     kind = content.get("kind", "nothing")
     if not isinstance(kind, str) or kind not in _KINDS:
         raise DataFileError(path, "kind", kind, f"one of {', '.join(_KINDS)}")

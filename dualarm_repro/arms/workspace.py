@@ -7,8 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Count, Positive, Rows3, checked
 from ..errors import InputError
 from .arm import Arm
+
+_MOST_CUBES = 1e18  # that an index of 64 bits can number
 
 
 class Extents(NamedTuple):
@@ -28,7 +31,8 @@ class VoxelVolume(NamedTuple):
     volume: float
 
 
-def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
+@checked
+def sample_workspace(arm: Arm, n: Count, rng: np.random.Generator) -> np.ndarray:
     """Flange positions p(q) for ``n`` configurations uniform within the limits, (n, 3) [m].
 
     Uniform joint angles, not uniform positions: the cloud is dense where many configurations lead.
@@ -36,8 +40,10 @@ def sample_workspace(arm: Arm, n: int, rng: np.random.Generator) -> np.ndarray:
     return arm.positions(arm.random_configurations(n, rng))
 
 
-def extents(points: np.ndarray) -> Extents:
+@checked
+def extents(points: Rows3) -> Extents:
     """Extents of a cloud (n, 3) [m]."""
+    _require_some("extents", points)
     radius = np.hypot(points[:, 0], points[:, 1])
     distance = np.hypot(radius, points[:, 2])
     return Extents(
@@ -48,19 +54,27 @@ def extents(points: np.ndarray) -> Extents:
     )
 
 
-def voxel_volume(points: np.ndarray, cells: Sequence[float]) -> list[VoxelVolume]:
+@checked
+def voxel_volume(points: Rows3, cells: Sequence[Positive]) -> list[VoxelVolume]:
     """V = h^3 * (number of cubes of edge h that hold a point), for several h [m].
 
     The number depends on h as much as on the workspace: small cubes stay empty for want of points,
     large ones stick out of the boundary. Use the rotation body of :mod:`.occupancy` for a volume.
     """
+    _require_some("voxel_volume", points)
     table = []
     for h in cells:
-        if not h > 0:
-            raise InputError("voxel_volume", "cells", h, "positive edge lengths [m]")
+        if not (np.ptp(points, axis=0) / h + 1.0).prod() < _MOST_CUBES:
+            expected = f"an edge length [m] with at most {_MOST_CUBES:g} cubes"
+            raise InputError("voxel_volume", "cells", h, expected)
         index = np.floor(points / h).astype(np.int64)
         index -= index.min(axis=0)
         size = index.max(axis=0) + 1
         occupied = np.unique(np.ravel_multi_index(index.T, size)).size
         table.append(VoxelVolume(float(h), occupied, occupied * float(h) ** 3))
     return table
+
+
+def _require_some(source: str, points: np.ndarray) -> None:
+    if not len(points):
+        raise InputError(source, "points", points.shape, "at least one point")

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import UnsupportedArmError
-from .kernels import Chain
+from .chain import Chain
 
 Vector = tuple[float, float, float]
 
@@ -32,6 +33,7 @@ class WristGeometry(NamedTuple):
     flange: tuple[Vector, Vector, Vector]  # in its own frame: z6, x5, flange minus wrist centre
 
 
+@checked
 def wrist_geometry(name: str, chain: Chain) -> WristGeometry:
     """Derive the constants from the chain.
 

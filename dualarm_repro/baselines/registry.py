@@ -14,11 +14,12 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any, cast
 
 from ..errors import InputError
+from ..planning.foreign import bordered
 from ..planning.methods import METHODS, Method
 from ..planning.path_plan import as_method
 from ..planning.planner import GROUP, PathPlanner
 from ..planning.settings import APFSettings
-from . import barrier, mutual_avoidance, sampling, shooting
+from . import barrier, compiled_sampling, mutual_avoidance, sampling, shooting
 
 #: Baselines by name. None imports the library behind it before it plans.
 BASELINES: dict[str, PathPlanner] = {
@@ -27,9 +28,13 @@ BASELINES: dict[str, PathPlanner] = {
     "rrt-connect": sampling.rrt_connect,
     "rrt-connect-simplified": sampling.rrt_connect_simplified,
     "rrt-connect-in-turn": sampling.rrt_connect_in_turn,
+    "rrt-connect-compiled": compiled_sampling.rrt_connect_compiled,
+    "rrt-connect-compiled-in-turn": compiled_sampling.rrt_connect_compiled_in_turn,
     "bit-star": sampling.bit_star,
     "trajectory-optimisation": shooting.shooting,
 }
+#: Longest description of a planner that is listed.
+_LONGEST = 200
 WHOLE_LINKS = "apf-whole-links"
 
 
@@ -55,13 +60,13 @@ def found() -> dict[str, Method[Any]]:
 
 def _baselines() -> dict[str, Method[Any]]:
     made = {
-        name: as_method(name, first_line(planner), partial(_itself, planner))
+        name: as_method(name, first_line(planner), partial(_itself, planner), foreign=False)
         for name, planner in BASELINES.items()
     }
     improved = METHODS["apf-improved"]
     made[WHOLE_LINKS] = Method(
         WHOLE_LINKS,
-        "the improved field with repulsion of the capsules of all links",
+        "The improved field with repulsion of the capsules of all links",
         _of_whole_links,
         APFSettings,
         cast("Method[APFSettings]", improved).default,
@@ -71,9 +76,11 @@ def _baselines() -> dict[str, Method[Any]]:
 
 
 def first_line(planner: Callable[..., Any]) -> str:
-    """What a planner says of itself: the first line of its docstring."""
-    lines = (planner.__doc__ or "").strip().splitlines()
-    return lines[0].strip().rstrip(".") if lines else "says nothing of itself"
+    """What a planner says of itself: the first line of its docstring, as a title."""
+    said = planner.__doc__ if isinstance(planner.__doc__, str) else ""
+    lines = said.strip().splitlines() or ["says nothing of itself"]
+    line = " ".join("".join(one if one.isprintable() else " " for one in lines[0]).split())
+    return line[:1].upper() + line[1:_LONGEST].rstrip(".")
 
 
 def _of_whole_links(settings: APFSettings) -> APFSettings:
@@ -88,16 +95,13 @@ def _described(one: EntryPoint) -> str:
     try:
         return first_line(_loaded(one))
     except InputError as error:
-        return f"cannot be loaded: {error.value}"
+        return f"Cannot be loaded: {error.expected}"
 
 
 def _loaded(one: EntryPoint) -> PathPlanner:
-    try:
+    with bordered(f"entry point {one.name}", "planner", one.value, "a planner"):
         planner = one.load()
-    except Exception as error:  # whatever the package of somebody else raises
-        reason = " ".join(f"{type(error).__name__}: {error}".split())
-        raise InputError(f"entry point {one.name}", one.value, reason, "a planner") from error
-    if not callable(planner):
-        expected = "a function from a PathProblem to a FoundPath"
-        raise InputError(f"entry point {one.name}", one.value, type(planner).__name__, expected)
+        if not callable(planner):
+            kind = type(planner).__name__
+            raise TypeError(f"{kind} is no function from a PathProblem to a FoundPath")
     return cast("PathPlanner", planner)

@@ -66,7 +66,7 @@ def arena(
         rows = contest_now(method, kind, most, progress.each)
     else:
         if jobs is not None or scheduler is not None:
-            ARENA.run(jobs or 1, progress.wanted(), scheduler=scheduler)
+            ARENA.run(jobs or 1, progress.watched(), scheduler=scheduler)
         if (status := ARENA.status()) != "up to date":
             raise LedgerError(f"arena: {status}; `dualarm arena --jobs 2` computes it")
         rows = contest(ARENA.load())

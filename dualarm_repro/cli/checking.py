@@ -45,7 +45,7 @@ def verify(
         chosen,
         update=update,
         jobs=jobs,
-        progress=progress.wanted(),
+        progress=progress.watched(),
         scheduler=scheduler,
     )
     if as_json:
@@ -155,7 +155,7 @@ def study(
         if stale and status == "up to date":
             continue
         if computes:
-            table = entry.run(jobs, progress.wanted(), scheduler=scheduler)
+            table = entry.run(jobs, progress.watched(), scheduler=scheduler)
             report.append({"name": entry.name, "cells": len(table)})
             line = f"{entry.name}: {len(table)} cells stored"
         else:

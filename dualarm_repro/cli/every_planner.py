@@ -15,14 +15,18 @@ ALL = "all"
 
 
 def _enlisting(command: Callable[..., None]) -> Callable[..., None]:
-    """The command, after every planner has been put on the list."""
+    """The command, after every planner has been put on the list; one of the documents, asked for
+    by its name, needs none of the others."""
 
     @wraps(command)
     def enlisted(*given: Any, **named: Any) -> None:
         with progress.waiting("loading the planners"):
-            from ..baselines.registry import enlist
+            from ..planning.methods import METHODS
 
-            enlist()
+            if named.get("method") not in METHODS:
+                from ..baselines.registry import enlist
+
+                enlist()
         command(*given, **named)
 
     return enlisted

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from threading import Event, Thread
 from typing import TYPE_CHECKING, TypeVar
+
+from ..terminal import watched
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -17,15 +17,10 @@ T = TypeVar("T")
 PATIENCE = 1.0
 
 
-def wanted() -> bool:
-    """Whether somebody watches: standard error is a terminal, and not that of a CI service."""
-    return sys.stderr.isatty() and not os.environ.get("CI")
-
-
 @contextmanager
 def waiting(what: str) -> Iterator[None]:
     """While the context lasts, and once it takes long, say what is done and for how long."""
-    if not wanted():
+    if not watched():
         yield
         return
     done = Event()
@@ -40,7 +35,7 @@ def waiting(what: str) -> Iterator[None]:
 
 def each(items: Sequence[T], what: str) -> Iterable[T]:
     """The items one by one, with how many are done."""
-    return _counted(items, what) if wanted() and len(items) > 1 else items
+    return _counted(items, what) if watched() and len(items) > 1 else items
 
 
 def _show(what: str, done: Event) -> None:

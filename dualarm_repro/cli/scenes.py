@@ -47,7 +47,7 @@ def check(
         output.print_json(made)
     else:
         for name, arm in made["arms"].items():
-            print(f"{name}: {'at its goal' if arm['reached'] else 'not at its goal'}")
+            print(f"{name}: {_ends(arm)}")
         print_links(made)
         print(f"outcome: {made['outcome']}" if paths else "starts and goals: sound")
     if not made["usable"]:
@@ -71,8 +71,22 @@ def view(
         output.print_written([page])
 
 
+def _ends(arm: dict[str, Any]) -> str:
+    from ..planning.checks.arrival import BEGUN
+
+    gap = arm["away_from_start"]
+    begun = "at its start" if gap <= BEGUN else f"{gap:.4g} (rad, or m if it slides) from its start"
+    if "reached" not in arm:
+        return begun
+    return f"{begun}, {'at its goal' if arm['reached'] else 'not at its goal'}"
+
+
 def print_links(summary: dict[str, Any], when: str = "step {:.4g}") -> None:
-    """The closest bodies, and the word for it if they collide."""
+    """What of the arms is represented otherwise, the closest bodies, and the word for it if they
+    collide."""
+    for name, lines in summary.get("remarks", {}).items():
+        for line in lines:
+            print(f"{name}: {line}")
     links = summary["links"]
     if not links["pair"]:
         print("closest bodies: none are watched")

@@ -35,28 +35,31 @@ def time(
     """Time a path within limits of speed and acceleration, and write it for a robot.
 
     Writes STEM_timed.csv (time, joints, tips), .json, .yaml (as a ROS JointTrajectory) and the 3-D
-    page .html. The timed motion is certified anew; exit code 3: it is not free of contact.
+    page .html. The limits hold at every time, and the timed motion is certified anew; exit code 3:
+    it is not free of contact, leaves joint limits, or does not begin at the start.
     """
     with progress.waiting(f"timing {scene.name}"):
         from ..ledger.file_set import write_texts
         from ..planning.checks.truth import truth
         from ..planning.timing import export
         from ..planning.timing.timed_motion import timed
-        from ..view.check_report import checked_paths, loaded
-        from ..view.plan_report import judged
+        from ..view.check_report import away_from_starts, begins, checked_paths, loaded
+        from ..view.plan_report import judged, remarks, told, usable
         from ..view.timed_scene import timed_scene
 
         given = loaded(scene)
+        paths_given = checked_paths(given, paths)
         motion = timed(
             given.scene,
-            checked_paths(given, paths),
+            paths_given,
             speed=speed,
             acceleration=acceleration,
             rate=rate,
         )
         found = truth(given.scene, motion.paths)
-        free = found.collision_free and found.within_limits
-        stem, mark = f"{scene.stem}_timed", "" if free else f"# DO NOT RUN: {found.verdict}\n"
+        begun = begins(away_from_starts(given, paths_given))
+        good, outcome = usable(found, True, begun), told(found, True, begun)
+        stem, mark = f"{scene.stem}_timed", "" if good else f"# DO NOT RUN: {outcome}\n"
         texts = {
             f"{stem}.csv": mark + export.to_csv(motion),
             f"{stem}.json": export.to_json(motion),
@@ -69,7 +72,11 @@ def time(
             "duration_s": motion.duration,
             "samples": len(motion.time),
             "deviation_rad": motion.deviation,
-            "usable": free,
+            "speed_share": motion.fullest_speed,
+            "acceleration_share": motion.fullest_acceleration,
+            "begun": begun,
+            "usable": good,
+            "remarks": remarks(given.scene),
             **judged(found),
         }
     if as_json:
@@ -77,7 +84,13 @@ def time(
     else:
         print(f"duration: {motion.duration:.3f} s, {len(motion.time)} samples")
         print(f"largest distance from the path given: {motion.deviation:.2g} rad")
+        print(
+            f"certified at every time: at most {motion.fullest_speed:.4f} of the speeds and "
+            f"{motion.fullest_acceleration:.4f} of the acceleration allowed"
+        )
+        if not begun:
+            print("the path does not begin at the start of the scene")
         print_links(summary, "{:.3f} s")
         output.print_written(files)
-    if not free:
+    if not good:
         raise typer.Exit(NOT_USABLE)

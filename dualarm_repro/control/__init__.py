@@ -15,10 +15,11 @@ from .recorded import recorded_problems
 from .scenario import Scenario, load_scenario
 from .settings import ControllerSettings, Damper, PairSelection, RowForm
 from .simulate import pseudo_inverse, simulate
-from .solvers import SOLVERS, solve
+from .solvers import OPTIONAL_SOLVERS, SOLVERS, solve
 from .system import ArmSystem
 
 __all__ = [
+    "OPTIONAL_SOLVERS",
     "SOLVERS",
     "Activation",
     "ArmSystem",

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pydantic import Field
 
+from ..arguments import Positive, Shape, checked
 from ..errors import InputError
 from ..kernel import kernel
 from ..settings import choice, code
+
+#: Vectors, one per arm.
+Rows = Annotated[ArrayLike, Shape("A", 3)]
+Turns = Annotated[ArrayLike, Shape("A")]
 
 
 class TimeLaw(StrEnum):
@@ -34,6 +40,7 @@ class CircleNumbers(NamedTuple):
     law: int
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Circles:
     """One circle per arm, all run once in ``duration``.
@@ -88,8 +95,14 @@ class Circles:
         object.__setattr__(self, "law", choice(TimeLaw, "Circles", "law", self.law))
 
     @classmethod
+    @checked
     def through(
-        cls, tips: ArrayLike, normals: ArrayLike, angles: ArrayLike, radius: float, **timing: Any
+        cls,
+        tips: Rows,
+        normals: Rows,
+        angles: Annotated[ArrayLike, Shape("A")],
+        radius: Positive,
+        **timing: Any,
     ) -> Circles:
         """Circles that start at ``tips``, in planes normal to ``normals``.
 
@@ -109,7 +122,8 @@ class Circles:
         """For the kernels."""
         return CircleNumbers(self.centre, self.u, self.v, float(self.duration), code(self.law))
 
-    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+    @checked
+    def at(self, t: Annotated[float, Field(ge=-1e9, le=1e9)]) -> tuple[np.ndarray, np.ndarray]:
         """Positions and velocities (A, 3) at a time; it repeats every ``duration``."""
         position, velocity = np.empty_like(self.centre), np.empty_like(self.centre)
         follow(self.numbers(), float(t), position, velocity)

@@ -14,7 +14,8 @@ from ..kernel import kernel
 
 SOLVED, INFEASIBLE, ITERATION_LIMIT = 0, 1, 2
 _FEASIBLE = 1e-12
-_DEPENDENT = 1e-12  # squared length of the part of a normal outside the active span
+_DEPENDENT = 1e-18  # squared sine of a normal against the active span
+_MEANT = 1e-8  # violation from which on a dependent constraint contradicts the active ones
 
 
 @kernel
@@ -48,7 +49,7 @@ def least_distance(program):
         square = _directions(a, Q, R, count, d, r, z)
         missing = b[i] - _dot(a, x)
         if square <= _DEPENDENT * _dot(a, a):
-            if abs(missing) > 1e-9:
+            if abs(missing) > _MEANT:
                 status = INFEASIBLE
                 break
             continue
@@ -81,7 +82,9 @@ def least_distance(program):
                     partial, leaving = u[j] / r[j], j
             t = min(full, partial)
             if t == np.inf:
-                status = INFEASIBLE
+                if violation < -_MEANT:
+                    status = INFEASIBLE
+                taken[worst] = True  # else it is the rounding of constraints that are active
                 break
             for j in range(count):
                 u[j] -= t * r[j]

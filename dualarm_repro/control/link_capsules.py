@@ -7,10 +7,13 @@ from collections.abc import Collection, Mapping
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import Number, Rows3, checked
 from ..arms.arm import Arm
 from ..arms.capsules import LinkCapsule, capsule_ends, geometry_of, not_contained, to_segment
+from ..errors import InputError
 
 
+@checked
 def with_capsules(
     arm: Arm,
     *,
@@ -40,7 +43,8 @@ def with_capsules(
     return arm.reshaped(build)
 
 
-def sticking_out(arm: Arm, q: np.ndarray, joint: int, points: np.ndarray) -> float:
+@checked
+def sticking_out(arm: Arm, q: np.ndarray, joint: Number, points: Rows3) -> float:
     """Largest distance of points of a link from the capsules of all links, negative inside [m].
 
     A link may be covered by the capsule of its neighbour, so that several q have to be checked.
@@ -51,8 +55,10 @@ def sticking_out(arm: Arm, q: np.ndarray, joint: int, points: np.ndarray) -> flo
     points : (N, 3)
         In the frame of the joint [m].
     """
+    if joint > arm.nq:
+        raise InputError("sticking_out", "joint", joint, f"at most {arm.nq}")
     data = arm.model.createData()
-    pin.forwardKinematics(arm.model, data, q)
+    pin.forwardKinematics(arm.model, data, arm.configurations(q))
     placed = points @ data.oMi[joint].rotation.T + data.oMi[joint].translation
     reach = np.full(len(points), np.inf)
     for g in arm.geometry.geometryObjects:

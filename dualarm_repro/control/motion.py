@@ -7,6 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Positive, checked
+from ..errors import InputError
+
 #: Tip error up to which a path counts as followed [m]; ten times the repeatability of small arms.
 FOLLOWED = 1e-3
 #: Excess over a limit that is left to rounding [rad], [rad/s].
@@ -127,7 +130,12 @@ class Motion:
         """Integral of |x|^2 / 2, which the document calls energy [rad^2/s]."""
         return float(0.5 * self.dt * np.sum(self.x**2))
 
-    def drift(self, period: float) -> np.ndarray:
+    @checked
+    def drift(self, period: Positive) -> np.ndarray:
         """max_i |q_i(k T) - q_i(0)| after each full period (k,) [rad]."""
-        every = round(period / self.dt)
+        steps = period / self.dt
+        if not 0.5 < steps < len(self.q):
+            expected = f"from one step, {self.dt:g}, to the {len(self.q)} of the motion [s]"
+            raise InputError("Motion.drift", "period", period, expected)
+        every = round(steps)
         return np.abs(self.q[every::every] - self.q[0]).max(axis=1)

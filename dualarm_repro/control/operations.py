@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..instrument import Cost, Instrument
-from .assembly import make_buffers
+from ..kernel import kernel
+from .assembly import make_buffers, sense, state
+from .certificate import residual
 from .circle import Circles, follow
-from .controller import control_step
 from .least_distance import least_distance
 from .least_norm import least_norm
 from .neural.network import network_rate, state_rate
@@ -21,6 +22,18 @@ from .system import ArmSystem
 from .warm_start import least_distance_from
 
 _PRESSES = 1e-9  # multiplier from which on a constraint presses
+
+
+@kernel
+def exact_step(arrays, numbers, q, home, position, velocity, buffers):
+    """One step with every distance and the dual method from nothing, so at its dearest.
+
+    What :func:`.step.control_step` leaves out depends on where the arms are.
+    """
+    count = sense(arrays, numbers, q, np.empty(0), buffers)
+    program = state(arrays, numbers, q, home, position, velocity, count, buffers)
+    status, x, y, z, w = least_distance(program)
+    return status, len(program.h), residual(program, x, y, z, w), x
 
 
 def exact_cost(p: QuadraticProgram) -> Cost:
@@ -72,7 +85,7 @@ def control_cost(
     position, velocity = np.empty((2, len(system.arms), 3))
     follow(circles.numbers(), t, position, velocity)
     state = (np.ascontiguousarray(q), home, position, velocity)
-    return Instrument().cost(control_step, system.arrays, numbers, *state, buffers)
+    return Instrument().cost(exact_step, system.arrays, numbers, *state, buffers)
 
 
 def network_control_cost(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import OPEN, checked
 from ..errors import DualArmError, InputError, shorten
 from .parts import ProgramParts, shapes
 
@@ -16,6 +17,7 @@ from .parts import ProgramParts, shapes
 CERTIFIED = 1e-8
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class QuadraticProgram:
     """min 1/2 |x - target|^2  s.t.  A x = b,  G x <= h,  lower <= x <= upper.
@@ -43,8 +45,8 @@ class QuadraticProgram:
     b: np.ndarray
     G: np.ndarray
     h: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    lower: Annotated[np.ndarray, OPEN]
+    upper: Annotated[np.ndarray, OPEN]
 
     if TYPE_CHECKING:  # anything that makes an array is taken
 
@@ -160,6 +162,7 @@ class Solution:
         size = 1.0 + np.abs(np.concatenate([self.y, self.z, self.w])).max()
         return float(np.max([self.primal_residual, self.dual_residual / size, self.gap / size]))
 
+    @checked
     def certified(self, tolerance: float = CERTIFIED) -> bool:
         """Whether the solution satisfies the optimality conditions to ``tolerance``."""
         return self.residual <= tolerance

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arguments import checked
 from .circle import Circles
 from .controller import VelocityController
 from .motion import Motion
@@ -13,6 +14,7 @@ from .settings import ControllerSettings
 from .system import ArmSystem
 
 
+@checked
 def recorded_problems(
     system: ArmSystem, circles: Circles, motion: Motion, settings: ControllerSettings, every: int
 ) -> list[QuadraticProgram]:

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from ..arguments import checked
 from ..datafiles import StrictModel, Text, read_yaml
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -42,6 +43,7 @@ class Scenario(StrictModel):
     found: Found
 
 
+@checked
 def load_scenario(path: Path) -> Scenario:
     """Read and check a scenario file.
 

@@ -5,20 +5,28 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import InputError
+from .assembly import make_buffers, stated_in
 from .circle import Circles
-from .closed_loop import DONE, Ending, Run, run_exact
+from .closed_loop import DONE, Ending, Run, make_run, run_exact, take
+from .few_constraints import make_work
 from .motion import Motion
 from .readings import Readings
 from .settings import ControllerNumbers, ControllerSettings
+from .solvers import second_opinion
 from .system import ArmSystem
 
+#: Most steps of a run, all of which are kept.
+MOST_STEPS = 2_000_000
 #: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
+_PORTION = 2000  # steps between which a run can be stopped, tens of milliseconds
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
 
 
+@checked
 def simulate(
     system: ArmSystem,
     circles: Circles,
@@ -56,12 +64,24 @@ def simulate(
         A bad configuration, step, number of cycles or number of circles.
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
-    weight = slack_weight if slack else 0.0
+    weights = slack_weight if slack else 0.0, smoothing
     readings = readings or Readings.of(system)
-    arguments = system.arrays, numbers, circles.numbers(), q0, steps, dt, weight, smoothing
-    return truncated(system, dt, *run_exact(*arguments, readings))
+    arrays, run = system.arrays, make_run(system.nq, len(system.arms), q0, steps)
+    buffers = make_buffers(arrays, numbers)
+    work = make_work(system.nq, 3 * len(system.arms), len(buffers.program.h))
+    step, status = 0, DONE
+    while step <= steps and status == DONE:
+        span = step, min(step + _PORTION, steps + 1)
+        arguments = arrays, numbers, circles.numbers(), *span, dt, weights, readings
+        status, step, rows = run_exact(*arguments, run, buffers, work)
+        other = None if status == DONE else second_opinion(stated_in(buffers, rows))
+        if other is not None:
+            take(run, step, other.x, rows, dt)
+            step, status = step + 1, DONE
+    return truncated(system, dt, status, min(step, steps), run)
 
 
+@checked
 def pseudo_inverse(settings: ControllerSettings) -> ControllerSettings:
     """The settings without inequalities: the minimiser is x = J^+ (dr/dt + K (r - f))."""
     return ControllerSettings(
@@ -86,6 +106,8 @@ def checked_run(
         raise InputError("simulate", "dt", dt, f"a step in (0, {circles.duration:g}] s")
     if not (isinstance(cycles, int) and cycles > 0):
         raise InputError("simulate", "cycles", cycles, "a positive whole number")
+    if not cycles * circles.duration / dt <= MOST_STEPS:
+        raise InputError("simulate", "dt", dt, f"a step with at most {MOST_STEPS} in all")
     steps = round(cycles * circles.duration / dt)
     return system.configuration(q0), settings.numbers(), steps
 

@@ -9,7 +9,9 @@ import daqp
 import numpy as np
 import proxsuite
 import qpsolvers
+from qpsolvers import available_solvers
 
+from ..arguments import checked
 from ..errors import UnknownNameError
 from .least_distance import INFEASIBLE, SOLVED, least_distance
 from .problem import CERTIFIED, NoSolution, QuadraticProgram, Solution
@@ -20,6 +22,10 @@ _UNBOUNDED = 1e30  # a bound beyond this is none, for every back end
 
 def _active_set(problem: QuadraticProgram) -> Solution:
     status, *parts = least_distance(problem.parts)
+    if status == SOLVED and (found := Solution(problem, *parts)).certified():
+        return found
+    if (other := second_opinion(problem)) is not None:
+        return other
     if status != SOLVED:
         reason = "the constraints exclude each other" if status == INFEASIBLE else "iteration limit"
         raise NoSolution("active_set", problem, reason)
@@ -40,6 +46,18 @@ def _daqp(problem: QuadraticProgram) -> Solution:
     return Solution(
         problem, np.array(x), multipliers[n : n + m], multipliers[n + m :], multipliers[:n]
     )
+
+
+def second_opinion(problem: QuadraticProgram) -> Solution | None:
+    """What DAQP finds where the own method finds nothing it can certify; None without certificate.
+
+    Its answers to badly conditioned problems are other ones, and either may be the one that holds.
+    """
+    try:
+        found = _daqp(problem)
+    except NoSolution:
+        return None
+    return found if found.certified() else None
 
 
 def _proxqp(problem: QuadraticProgram) -> Solution:
@@ -77,30 +95,39 @@ def _through_qpsolvers(name: str, **settings: Any) -> Callable[[QuadraticProgram
     return solve
 
 
-#: Solver name to the function and the largest residual its answers may have.
-SOLVERS: dict[str, tuple[Callable[[QuadraticProgram], Solution], float]] = {
+_Entry = tuple[Callable[[QuadraticProgram], Solution], float]
+#: Solver name to the function and the largest residual its answers may have. These come with the
+#: package; what is judged asks no others.
+SOLVERS: dict[str, _Entry] = {
     "active_set": (_active_set, CERTIFIED),
     "daqp": (_daqp, CERTIFIED),
-    "quadprog": (_through_qpsolvers("quadprog"), CERTIFIED),
     "proxqp": (_proxqp, 1e-6),
     "piqp": (_through_qpsolvers("piqp", eps_abs=1e-9, eps_rel=0.0), 1e-6),
     "cvxpy": (solve_statement, 1e-6),
 }
+#: Solvers of the extra `solvers`, whose licences ask more than that of the package.
+OPTIONAL_SOLVERS: dict[str, _Entry] = {
+    "quadprog": (_through_qpsolvers("quadprog"), CERTIFIED),
+}
 
 
+@checked
 def solve(problem: QuadraticProgram, solver: str = "active_set") -> Solution:
     """Solve and certify a problem.
 
     Raises
     ------
     UnknownNameError
-        No such solver.
+        No such solver, or one of an extra that is not installed.
     NoSolution
         Infeasible, or the answer fails its certificate.
     """
-    if solver not in SOLVERS:
-        raise UnknownNameError("solve", "solver", solver, f"one of {', '.join(SOLVERS)}")
-    function, tolerance = SOLVERS[solver]
+    known = SOLVERS | {n: s for n, s in OPTIONAL_SOLVERS.items() if n in available_solvers}
+    if solver not in known:
+        more = [f"{name} (extra `solvers`)" for name in OPTIONAL_SOLVERS if name not in known]
+        expected = f"one of {', '.join([*known, *more])}"
+        raise UnknownNameError("solve", "solver", solver, expected)
+    function, tolerance = known[solver]
     solution = function(problem)
     if not solution.certified(tolerance):
         raise NoSolution(solver, problem, f"the answer has the residual {solution.residual:.1e}")

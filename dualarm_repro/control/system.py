@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..errors import ConfigurationError, InputError
 from ..scene.bodies import PlacedArm
 from ..scene.posing import links_of
@@ -23,7 +24,7 @@ class SystemArrays(NamedTuple):
     Attributes
     ----------
     rotation, translation : (n + A, 3, 3), (n + A, 3)
-        C_0 ... C_nq of every arm one after the other, as in :class:`..arms.kernels.Chain`.
+        C_0 ... C_nq of every arm one after the other, as in :class:`..arms.chain.Chain`.
     base : (A, 3, 4)
     start : (A + 1,)
         First joint of every arm, and n.
@@ -52,6 +53,7 @@ class SystemArrays(NamedTuple):
     speed: np.ndarray
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class ArmSystem:
     """Controlled arms on their bases, every link watched against the links of the other arms.
@@ -120,6 +122,7 @@ class ArmSystem:
         """Joints of all arms."""
         return int(self.arrays.start[-1])
 
+    @checked
     def configuration(self, q: ArrayLike) -> np.ndarray:
         """``q`` as a float64 array (nq,).
 
@@ -133,6 +136,7 @@ class ArmSystem:
             raise ConfigurationError("ArmSystem", "shape of q", array.shape, f"({self.nq},)")
         return array
 
+    @checked
     def tips(self, q: ArrayLike) -> np.ndarray:
         """Flange positions of all arms in the world (A, 3) [m]."""
         q = self.configuration(q)

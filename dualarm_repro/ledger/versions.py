@@ -21,7 +21,7 @@ DISTRIBUTIONS = {
     "pinocchio": ("pin",),
     "pink": ("pin-pink",),
     "umsgpack": ("u-msgpack-python",),
-    "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp", "quadprog"),
+    "qpsolvers": ("qpsolvers", "daqp", "proxsuite", "piqp"),
     "yaml": ("pyyaml",),
 }
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")

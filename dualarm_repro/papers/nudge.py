@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ..arms.kernels import Chain
-    from ..arms.sliding import SlidingChain
+    from ..arms.chain import Chain, SlidingChain
 
 
 def nudge_arms(seed: int) -> None:

@@ -10,6 +10,7 @@ from itertools import product
 
 import numpy as np
 
+from ..arguments import checked
 from ..arms.exclusions import shape_of
 from ..errors import InputError
 from ..scene import JointPath, PlacedArm, Scene, distances
@@ -25,6 +26,7 @@ _SAMPLES = 64
 _TOLERANCE = 1e-3  # [m], of no weight at a single posture
 
 
+@checked
 def require_sound(
     source: object,
     scene: Scene,
@@ -49,6 +51,14 @@ def require_sound(
         With a line for each joint beyond its limits and for each two owners that touch, and the
         ``exempt`` line wherever the contact is one of mounting.
     """
+    for field, ends in (("starts", starts), ("goals", goals)):
+        for placed in scene.arms:
+            if placed.name not in ends:
+                expected = f"a configuration of {placed.name}"
+                raise InputError("require_sound", field, list(ends), expected)
+            if placed.arm.configurations(ends[placed.name]).ndim != 1:
+                expected = f"({placed.arm.nq},) for {placed.name}"
+                raise InputError("require_sound", field, np.shape(ends[placed.name]), expected)
     faults = list(limit_faults(source, scene, starts, goals))
     if not allow_collision:
         faults += contact_faults(source, scene, starts, goals)

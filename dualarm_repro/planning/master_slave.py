@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Generic, Literal, TypeVar
+from typing import Annotated, Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import NonNegative, Positive, Shape, checked
 from ..errors import InputError, UnknownNameError
 from ..scene import JointPath, PlacedArm, Scene
 from ..settings import Settings
@@ -31,6 +32,7 @@ _Settings_co = TypeVar("_Settings_co", bound=Settings, covariant=True)
 _Plan_co = TypeVar("_Plan_co", bound=ArmPath, covariant=True)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Task(Generic[_Settings_co]):
     """What one arm is to do.
@@ -46,10 +48,14 @@ class Task(Generic[_Settings_co]):
         steps, so that all arms make one step at a time.
     """
 
-    start: ArrayLike
-    goal: ArrayLike
+    start: Annotated[ArrayLike, Shape("n")]
+    goal: Annotated[ArrayLike, Shape("n")]
     settings: _Settings_co
     index: Callable[[Plan], np.ndarray] | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.settings, Settings):
+            raise InputError("Task", "settings", self.settings, "the settings of a planner")
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,17 +93,19 @@ class CoordinatedPlan(Generic[_Plan_co]):
         """0, 1, ... until every arm has arrived."""
         return np.arange(1.0 + max(np.ceil(path.index[-1]) for path in self.paths.values()))
 
-    def links(self, max_step: float) -> LinkClearance:
+    @checked
+    def links(self, max_step: Positive) -> LinkClearance:
         """Distances of whole links, see :func:`.link_clearance.link_clearance`."""
         return link_clearance(self.scene, self.paths, max_step)
 
 
+@checked
 def plan_master_slave(
     scene: Scene,
     tasks: Mapping[str, Task[APFSettings]],
     *,
     master_points: MasterPoints = "joint_points",
-    radius: float | None = None,
+    radius: NonNegative | None = None,
     leave_out: Collection[str] = (),
     planner: Planner = plan_apf_compiled,
 ) -> CoordinatedPlan[Plan]:
@@ -140,7 +148,8 @@ def plan_master_slave(
     return CoordinatedPlan(scene, plans, paths)
 
 
-def at_tool_speed(step: float) -> Callable[[Plan], np.ndarray]:
+@checked
+def at_tool_speed(step: Positive) -> Callable[[Plan], np.ndarray]:
     """Index of a plan at which its flange advances ``step`` [m] per step of the later arms.
 
     A piece of path on which the flange rests takes a thousandth of a step.

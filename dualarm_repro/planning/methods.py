@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from ..arguments import checked
 from ..arms import Arm
 from ..errors import DualArmError, InputError, UnknownNameError
 from ..scene import JointPath, Scene
@@ -60,6 +61,7 @@ class Method(Generic[_Settings]):
     plan: Callable[[TaskSet[_Settings], dict[str, Task[_Settings]]], AnyPlan]
     whole: bool = False
 
+    @checked
     def planned(self, path: str | Path, allow_collision: bool = False) -> AnyPlan:
         """See :func:`plan_file`."""
         given = load_tasks(path, self.settings, self.default)
@@ -140,25 +142,25 @@ METHODS: dict[str, AnyMethod] = {
     for method in (
         Method(
             "apf-improved",
-            "attraction by position and joints, repulsion of all control points, virtual point",
+            "Attraction by position and joints, repulsion of all control points, virtual point",
             lambda settings: settings,
             *_APF,
         ),
         Method(
             "apf-traditional",
-            "attraction and repulsion of the end effector, by position only",
+            "Attraction and repulsion of the end effector, by position only",
             _at_the_tool,
             *_APF,
         ),
         Method(
             "apf-traditional-points",
-            "attraction of the end effector by position, repulsion of all control points",
+            "Attraction of the end effector by position, repulsion of all control points",
             _traditional,
             *_APF,
         ),
         Method(
             "apf-cartesian-ik",
-            "the end effector as a point in the field; inverse kinematics and a look at every step",
+            "The end effector as a point in the field; inverse kinematics and a look at every step",
             _traditional,
             APFSettings,
             default_settings,
@@ -166,19 +168,19 @@ METHODS: dict[str, AnyMethod] = {
         ),
         Method(
             "attraction-only",
-            "attraction alone: obstacles are ignored",
+            "Attraction alone: obstacles are ignored",
             _attraction_only,
             *_APF,
         ),
         Method(
             "apf-bidirectional",
-            "search from both ends in joint space, variable gain and step; hull of the master",
+            "Search from both ends in joint space, variable gain and step; hull of the master",
             lambda settings: settings,
             *_SEARCH,
         ),
         Method(
             "apf-one-sided",
-            "the same search from the start only, with constant gain and step",
+            "The same search from the start only, with constant gain and step",
             one_sided,
             *_SEARCH,
         ),
@@ -186,6 +188,7 @@ METHODS: dict[str, AnyMethod] = {
 }
 
 
+@checked
 def method(name: str) -> AnyMethod:
     """The method of a name.
 
@@ -194,16 +197,18 @@ def method(name: str) -> AnyMethod:
     UnknownNameError
         There is none.
     """
-    if name not in METHODS:
+    if not isinstance(name, str) or name not in METHODS:
         raise UnknownNameError("planning", "method", name, f"one of {', '.join(METHODS)}")
     return METHODS[name]
 
 
+@checked
 def settings_schema(name: str) -> dict[str, Any]:
     """JSON Schema of the settings of a method."""
     return method(name).settings.model_json_schema()
 
 
+@checked
 def plan_file(path: str | Path, name: str, allow_collision: bool = False) -> AnyPlan:
     """Plan the tasks of a task file or scene file by a method, arm after arm.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..errors import DualArmError, InputError
 from ..scene import JointPath, PlacedArm, densify
 from .arm_path import ArmPath
 from .descent.certificate import Certificate
+from .foreign import asked, bordered
 from .master_slave import CoordinatedPlan, Task
 from .methods import Method
 from .planner import FoundPath, PathPlanner, PathProblem, PlannerSettings
@@ -80,37 +81,54 @@ def as_plan(problem: PathProblem, found: FoundPath) -> CoordinatedPlan[Any]:
     return CoordinatedPlan(scene, plans, paths)
 
 
-def run_planner(name: str, planner: PathPlanner, problem: PathProblem) -> CoordinatedPlan[Any]:
+def run_planner(
+    name: str, planner: PathPlanner, problem: PathProblem, foreign: bool = True
+) -> CoordinatedPlan[Any]:
     """What a planner answers, checked: nothing but errors of the library leaves it.
+
+    Parameters
+    ----------
+    foreign : bool
+        Whether it is the code of somebody else, which is given a copy of the problem.
 
     Raises
     ------
     InputError
         The planner fails, or its path is of the wrong form or does not begin at the start.
     """
-    try:
-        found = planner(problem)
-    except DualArmError:
-        raise
-    except Exception as error:  # whatever the code of somebody else raises
-        kind = " ".join(f"{type(error).__name__}: {error}".split())
-        raise InputError("planner", "method", name, f"a planner that answers ({kind})") from error
+    if foreign:
+        found = asked(name, planner, problem)
+    else:
+        try:
+            found = planner(problem)
+        except DualArmError:
+            raise
+        except Exception as error:  # whatever a library below raises
+            kind = " ".join(f"{type(error).__name__}: {error}".split())
+            expected = f"a planner that answers ({kind})"
+            raise InputError("planner", "method", name, expected) from error
     if not isinstance(found, FoundPath):
         raise InputError(f"planner {name}", "answer", type(found).__name__, "a FoundPath")
-    path = problem.scene.configurations(found.path)
+    with bordered(f"planner {name}", "answer", "path", "a FoundPath of rows of joints"):
+        # Copies, which nothing changes after they have been checked.
+        path, reason = problem.scene.configurations(found.path).copy(), f"{found.reason}"
     if path.ndim != 2 or not len(path) or np.abs(path[0] - problem.start).max() > _SAME:
         expected = f"rows of {problem.scene.nq} joints that begin at the start"
         raise InputError(f"planner {name}", "path", path.shape, expected)
-    return as_plan(problem, replace(found, path=path))
+    return as_plan(problem, FoundPath(path, " ".join(reason.split())))
 
 
-def as_method(name: str, description: str, load: Callable[[], PathPlanner]) -> Method[Any]:
+def as_method(
+    name: str, description: str, load: Callable[[], PathPlanner], foreign: bool = True
+) -> Method[Any]:
     """A planner as an entry of the methods, which `plan_file` takes like any other.
 
     Parameters
     ----------
     load : callable
         Gives the planner when it is to plan.
+    foreign : bool
+        See :func:`run_planner`.
     """
 
     def plan(
@@ -125,7 +143,7 @@ def as_method(name: str, description: str, load: Callable[[], PathPlanner]) -> M
             given.scene.stack(**{arm: task.goal for arm, task in tasks.items()}),
             next(iter(tasks.values())).settings,
         )
-        return run_planner(name, load(), problem)
+        return run_planner(name, load(), problem, foreign)
 
     return Method(
         name,

@@ -1,18 +1,20 @@
 """What a planner is: one function from a problem to a path of all arms at once.
 
 A planner of one's own is a function of this form, named by an entry point of the group
-:data:`GROUP`; ``dualarm methods`` lists it, ``plan`` runs it and ``arena`` judges it.
+:data:`GROUP`; ``dualarm methods`` lists it, ``plan`` runs it and ``arena`` judges it. It is given a
+copy of the problem (:mod:`.foreign`): what it writes into is never what it is judged by.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 from pydantic import Field
 
+from ..arguments import LATER, checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -21,6 +23,9 @@ from ..settings import Positive, Settings
 
 #: Entry points of this group are planners.
 GROUP = "dualarm_repro.planners"
+#: No search leaves its ends by more [rad, m]; files state limits of 1e16, of which nothing could be
+#: drawn.
+FARTHEST = 25.0
 
 
 class PlannerSettings(Settings):
@@ -47,6 +52,7 @@ class Ending(StrEnum):
     DIVERGED = "not converged"
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class FoundPath:
     """A path (N, nq) [rad] of all arms, linear between rows, and what its planner says of it.
@@ -63,6 +69,7 @@ class FoundPath:
         return self.reason == Ending.REACHED
 
 
+@checked
 @dataclass(eq=False)
 class PathProblem:
     """Two configurations of all arms of a scene, and counted access to its distances.
@@ -79,8 +86,8 @@ class PathProblem:
     """
 
     scene: Scene
-    start: np.ndarray
-    goal: np.ndarray
+    start: Annotated[np.ndarray, LATER]
+    goal: Annotated[np.ndarray, LATER]
     settings: PlannerSettings = field(default_factory=PlannerSettings)
     evaluations: int = 0
 
@@ -97,10 +104,13 @@ class PathProblem:
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits of the joints (nq,) [rad, m], finite and wide enough for start and goal: those of
-        a continuous joint are two turns apart, or reach to an end that lies farther."""
+        a continuous joint are two turns apart, or reach to an end that lies farther; none is more
+        than ``FARTHEST`` away from both ends."""
         lower, upper = self.scene.limits
         ends = np.array([self.start, self.goal])
-        return np.minimum(lower, ends.min(axis=0)), np.maximum(upper, ends.max(axis=0))
+        first, last = ends.min(axis=0), ends.max(axis=0)
+        lower, upper = np.maximum(lower, first - FARTHEST), np.minimum(upper, last + FARTHEST)
+        return np.minimum(lower, first), np.maximum(upper, last)
 
     @property
     def margin(self) -> float:
@@ -125,6 +135,7 @@ class PathProblem:
         self.evaluations += 1
         return clearance_gradient(self.scene, q, time)
 
+    @checked
     def at_rest(self, method: str) -> None:
         """Raise if something moves by itself, for a method that knows no time.
 
@@ -137,6 +148,7 @@ class PathProblem:
             if not isinstance(mover, MovingArm) or len(mover.path.index) > 1:
                 raise InputError(method, "moving", name, "a scene in which only the arms move")
 
+    @checked
     def without(self, others: dict[str, np.ndarray]) -> PathProblem:
         """The same for fewer arms: ``others`` (nq,) [rad] stand where it says."""
         scene = self.scene

@@ -9,7 +9,7 @@ from .hull import ConvexHull, circle_points
 from .moving import JointPath, MovingArm, MovingShape, PosePath
 from .path import densify
 from .points import point_distances
-from .posing import Links, link_frames, links_of
+from .posing import Links, links_of
 from .scene import FLOOR, Scene
 from .scene_file import load_scene
 from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, facing, window_frame
@@ -39,7 +39,6 @@ __all__ = [
     "densify",
     "distances",
     "facing",
-    "link_frames",
     "links_of",
     "load_scene",
     "point_distances",

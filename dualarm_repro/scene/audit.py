@@ -17,7 +17,9 @@ from ..arms import load_arm
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends, to_segment
 from ..arms.exclusions import Evidence, shape_of
-from ..arms.fit.evidence import contacts, home_pose, watched_pairs
+from ..arms.fit.evidence import watched_pairs
+from ..arms.fit.neighbours import adjacent_pairs
+from ..arms.fit.postures import contacts, home_pose
 from ..arms.fit.triangles import triangles_of
 from ..errors import DualArmError, UnsupportedArmError
 from .bodies import PlacedArm
@@ -147,12 +149,14 @@ def excess(arm: Arm) -> float:
 
 def _touching(arm: Arm, q: np.ndarray, sample: np.ndarray | None = None) -> np.ndarray:
     """Whether exact shapes two or more joints apart touch (N,), but for those that always do and
-    those that touch at the home pose for good, which the arm lists."""
+    those that touch at the home pose for good, which the arm lists, or neighbours that count."""
     if arm.solids is None:
         raise UnsupportedArmError(f"arm {arm.name}: its exact shapes are not known")
     names = [shape.name for shape in arm.solids.geometryObjects]
     listed = {(one.first, one.second) for one in arm.exclusions or () if one.evidence in _FOR_GOOD}
+    near = {(one.first, one.second) for one in arm.neighbours}
     pairs = [(i, j) for i, j in watched_pairs(arm.solids) if (names[i], names[j]) not in listed]
+    pairs += [(i, j) for i, j in adjacent_pairs(arm.solids) if (names[i], names[j]) in near]
     found = contacts(arm.model, arm.solids, pairs, q)
     always = found if sample is None else contacts(arm.model, arm.solids, pairs, sample)
     return np.asarray(found[:, ~always.all(axis=0)].any(axis=1))

@@ -6,13 +6,15 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import LATER, checked
 from ..arms.arm import Arm
+from ..errors import InputError
 from .hull import ConvexHull
 from .moving import MovingArm, MovingShape
 from .posing import links_of
@@ -22,15 +24,16 @@ from .shapes import Box, Capsule, HalfSpace, Shape, Sphere, not_a_shape
 Sort = Literal["capsule", "box", "plane", "hull"]
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class PlacedArm:
     """A controlled arm, the pose of its base in the world and a planner's start and goal [rad]."""
 
     name: str
     arm: Arm
-    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
-    start: np.ndarray | None = None
-    goal: np.ndarray | None = None
+    placement: Annotated[pin.SE3, LATER] = field(default_factory=pin.SE3.Identity)
+    start: Annotated[np.ndarray, LATER] | None = None
+    goal: Annotated[np.ndarray, LATER] | None = None
 
     if TYPE_CHECKING:  # anything that makes an array is taken
 
@@ -44,6 +47,10 @@ class PlacedArm:
         ) -> None: ...
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise InputError("PlacedArm", "name", self.name, "text")
+        if not isinstance(self.arm, Arm):
+            raise InputError("PlacedArm", "arm", self.arm, "an Arm, as load_arm gives it")
         finite_pose(f"arm {self.name}", "placement", self.placement)
         for field_name in ("start", "goal"):
             if (q := getattr(self, field_name)) is not None:

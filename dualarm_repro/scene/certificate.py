@@ -9,12 +9,14 @@ two bodies can travel at most w relative to each other is therefore nowhere belo
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import OPEN, Count, Positive, checked
 from ..arms.arm import Arm
+from ..arms.exclusions import shape_of
 from ..arms.fit.triangles import PRISM
 from .clearance import distances
 from .hull import ConvexHull
@@ -23,6 +25,7 @@ from .moving import JointPath, MovingArm
 from .posing import links_of
 from .quantities import positive
 from .scene import Scene
+from .shape_pairs import shape_pairs
 from .shapes import Box, Capsule, Sphere
 
 
@@ -40,13 +43,14 @@ class Bracket(NamedTuple):
     evaluations: int
 
 
+@checked
 def certified_minimum(
     scene: Scene,
     path: ArrayLike,
     index: ArrayLike | None = None,
-    tolerance: float = 1e-3,
-    enough: float = np.inf,
-    budget: int = 200_000,
+    tolerance: Positive = 1e-3,
+    enough: Annotated[float, OPEN] = np.inf,
+    budget: Count = 200_000,
 ) -> Bracket:
     """Bounds on min over s of min over pairs of d(q(s), t(s)) for a path linear between samples.
 
@@ -177,17 +181,19 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
             lever[name] = reach(mover.arm, np.abs(mover.path.configurations).max(axis=0))
         else:
             lever[name] = np.array([[1.0, _extent(mover.shape)]])
-    arms = {placed.name: placed.arm for placed in scene.arms}
+    wide = {placed.name: _wide(placed.arm, lever[placed.name]) for placed in scene.arms}
     hulled = {pair.column for pairs in hull_pairs(scene).values() for pair in pairs}
+    shaped = {k for pairs in shape_pairs(scene).values() for pair in pairs for k in pair.columns}
     rate = {name: np.zeros((len(scene.pairs), table.shape[1])) for name, table in lever.items()}
     for k, (a, b) in enumerate(scene.pairs.bodies):
         if a.owner == b.owner:
             low, high = sorted((a, b), key=lambda body: body.joint or 0)
-            rate[a.owner][k, low.joint :] = lever[a.owner][high.link, low.joint :]
-            if k in hulled:  # corners of a hull are farther from an axis than the core
-                turning = ~arms[a.owner].slides[low.joint : high.joint]
-                radius = PRISM * scene.bodies.radius[high.row]
-                rate[a.owner][k, low.joint : high.joint] += radius * turning
+            moved = slice(low.joint, high.joint)
+            rate[a.owner][k, moved] = lever[a.owner][high.link, moved]
+            if k in shaped:
+                rate[a.owner][k, moved] = wide[a.owner].shape[high.link, moved]
+            elif k in hulled:
+                rate[a.owner][k, moved] = wide[a.owner].hull[high.link, moved]
         else:
             for body in (a, b):
                 if body.owner in rate:
@@ -195,6 +201,23 @@ def _travel(scene: Scene, track: JointPath) -> Callable[[np.ndarray], np.ndarray
     controlled = np.hstack([rate.pop(placed.name) for placed in scene.arms])
     terms = [(track, controlled), *((scene.moving[name].path, rate[name]) for name in rate)]
     return lambda time: sum(path.travel(time) @ rate.T for path, rate in terms)
+
+
+class _Wide(NamedTuple):
+    """Levers (C, nq) of all points of the hull in each capsule, and of those of its whole shape."""
+
+    hull: np.ndarray
+    shape: np.ndarray
+
+
+def _wide(arm: Arm, lever: np.ndarray) -> _Wide:
+    """Corners of a hull are farther from an axis than the core of its capsule by its radius, those
+    of a prism around a rod by a little more; a shape is in all capsules that have its name."""
+    links = links_of(arm)
+    grown = lever + np.where((lever > 0.0) & ~arm.slides, PRISM * links.radius[:, np.newaxis], 0.0)
+    names = np.array([shape_of(name) for name in links.names])
+    whole = [grown[names == name].max(axis=0) for name in names]
+    return _Wide(grown, np.array(whole).reshape(grown.shape))
 
 
 def _extent(shape: Sphere | Capsule | Box | ConvexHull) -> float:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .hull_pairs import refine
+from ..arguments import checked
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
 from .placement import place
 from .quantities import array_of
 from .scene import Scene
+from .shape_pairs import refine
 
 _NO_WITNESS = np.empty((0, 0, 3, 3))
 # Configurations handled at once, so that their cores stay in the cache of the processor.
@@ -57,6 +58,7 @@ class Clearance:
         return int(pair) if pair.ndim == 0 else pair
 
 
+@checked
 def clearance(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> Clearance:
     """d_k(q, t) of every watched pair, with nearest points and normals.
 
@@ -83,6 +85,7 @@ def clearance(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> Clearance:
     return Clearance(scene.pairs.names, distance, *np.moveaxis(witness, -2, 0))
 
 
+@checked
 def distances(scene: Scene, q: ArrayLike, time: ArrayLike = 0.0) -> np.ndarray:
     """The distances of :func:`clearance` alone, (P,) or (N, P); several times faster for many q."""
     rows = scene.configurations(q)
@@ -124,6 +127,9 @@ def blocks(count: int, size: int) -> Iterator[slice]:
 
 
 def _times(time: ArrayLike, count: int) -> np.ndarray:
-    shape = np.shape(time) and (count,)
-    time = array_of("scene", "time", time, shape, f"a finite number, or {count} of them")
+    single = isinstance(time, int | float)
+    expected = f"a finite number, or {count} of them"
+    if not single and getattr(time, "shape", None) == ():
+        single = True
+    time = array_of("scene", "time", time, () if single else (count,), expected)
     return np.broadcast_to(time, count)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from ..arguments import LATER, checked
 from ..errors import InputError
 from .hull import ConvexHull
 from .pair_kernels import capsules_boxes, capsules_capsules, capsules_hull, capsules_planes
@@ -32,7 +33,8 @@ class Witness(NamedTuple):
         return Witness(self.distance, self.point_b, self.point_a, -self.normal)
 
 
-def signed_distance(a: Shape, b: Shape) -> Witness:
+@checked
+def signed_distance(a: Annotated[Shape, LATER], b: Annotated[Shape, LATER]) -> Witness:
     """d(a, b): length of the shortest gap, or minus that of the shortest separating translation.
 
     The translation is the shortest one of a relative to b after which they only touch (penetration

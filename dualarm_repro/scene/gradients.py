@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..kernel import kernel
 from .clearance import Clearance, clearance
 from .placement import arm_frames
@@ -29,6 +30,7 @@ def _gradients(frames, sign, point, normal, gradient):
                 gradient[n, k, j] = sign[k, j] * dot(towards_b, cross(axis, minus(p, origin)))
 
 
+@checked
 def clearance_gradient(
     scene: Scene, q: ArrayLike, time: ArrayLike = 0.0
 ) -> tuple[Clearance, np.ndarray]:

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import coal
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
+from pydantic import Field
 from scipy import spatial
 
+from ..arguments import Shape, checked
 from ..arms.fit.triangles import convex
 from ..errors import InputError
 from .polytope import Polytope
 from .quantities import array_of, frozen
 from .vectors import perpendicular
 
+#: Vectors, one per circle.
+Vectors = Annotated[ArrayLike, Shape("K", 3)]
 
+
+@checked
 class ConvexHull:
     """Smallest convex set that contains the points.
 
@@ -65,6 +73,7 @@ class ConvexHull:
             np.stack([normals[one], normals[other]], axis=1),
         )
 
+    @checked
     def moved(self, placement: pin.SE3) -> ConvexHull:
         """The shape after a rigid motion."""
         return ConvexHull(self.vertices @ placement.rotation.T + placement.translation)
@@ -74,7 +83,13 @@ class ConvexHull:
         return convex(self.vertices), coal.Transform3s()
 
 
-def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: int) -> np.ndarray:
+@checked
+def circle_points(
+    centers: Vectors,
+    axes: Vectors,
+    radii: Annotated[ArrayLike, Shape("K")],
+    count: Annotated[int, Field(ge=3, le=100_000)],
+) -> np.ndarray:
     """c_k + r_k (cos(2 pi i / count) x_k + sin(2 pi i / count) y_k), x_k and y_k normal to axis k.
 
     Parameters
@@ -90,10 +105,10 @@ def circle_points(centers: ArrayLike, axes: ArrayLike, radii: ArrayLike, count: 
     -------
     ndarray (K count, 3)
     """
-    if count < 3:
-        raise InputError("circle_points", "count", count, "at least 3")
     angle = 2 * np.pi * np.arange(count) / count
     axes = np.asarray(axes, dtype=float)
+    if not (np.abs(axes).max(axis=1, initial=0.0) > 0.0).all():
+        raise InputError("circle_points", "axes", axes, "directions that are not zero")
     x = np.array([perpendicular(axis) for axis in axes])
     y = np.cross(axes, x) / np.linalg.norm(axes, axis=1, keepdims=True)
     ring = np.cos(angle)[:, None] * x[:, None] + np.sin(angle)[:, None] * y[:, None]

@@ -9,7 +9,7 @@ bodies move.
 from __future__ import annotations
 
 from collections import defaultdict
-from functools import lru_cache
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import coal
@@ -19,25 +19,36 @@ import pinocchio as pin
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends, segment_capsule, to_segment
 from ..arms.fit.triangles import PRISM, convex
+from ..tracking import kept_with_owner
 from .posing import frames_of, in_link_frames, links_of
 from .scene import Scene
 
 CAP = 0.03  # hulls farther apart [m] count as this far
-_GJK = 1e-6  # by how much coal may overstate a distance [m]
+GJK = 1e-6  # by how much coal may overstate a distance [m]
 _FILLED = 1e-9  # by how much a hull may fail to fill its capsule [m]
 
 
 class Carried(NamedTuple):
-    """A hull, or a capsule that has none, at a pose in the frame of the joint that carries it."""
+    """A hull, or another shape at a pose, in the frame of the joint that carries it."""
 
     joint: int
     geometry: coal.CollisionGeometry
-    pose: pin.SE3
+    pose: coal.Transform3s | None = None
 
-    def placed(self, frames: np.ndarray) -> coal.Transform3s:
-        """Where it is, for frames (J, 3, 4)."""
-        turn, origin = frames[self.joint, :, :3], frames[self.joint, :, 3]
-        return coal.Transform3s(turn @ self.pose.rotation, turn @ self.pose.translation + origin)
+    def placed(self, joints: Sequence[coal.Transform3s]) -> coal.Transform3s:
+        """Where it is, for the places of the joints."""
+        at = joints[self.joint]
+        return at if self.pose is None else at * self.pose
+
+
+def places(frames: np.ndarray) -> list[coal.Transform3s]:
+    """Frames (J, 3, 4) as coal has them."""
+    return [coal.Transform3s(frame[:, :3], frame[:, 3]) for frame in frames]
+
+
+def transform(pose: pin.SE3) -> coal.Transform3s:
+    """A pose as coal has it."""
+    return coal.Transform3s(pose.rotation, pose.translation)
 
 
 class HullPair(NamedTuple):
@@ -48,7 +59,7 @@ class HullPair(NamedTuple):
     second: Carried
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def hulls_of(arm: Arm) -> dict[str, Carried]:
     """Of capsules by name the hull in the frame of their joint as :func:`.posing.link_frames` has
     it. A capsule that is not the one fitted around its hull, such as a thicker one, has none."""
@@ -61,7 +72,7 @@ def hulls_of(arm: Arm) -> dict[str, Carried]:
         farthest = to_segment(corners, *ends).max()
         if min(abs(farthest - radius), abs(farthest - PRISM * radius)) <= _FILLED:
             local = in_link_frames(arm, one.parentJoint, corners)
-            found[one.name] = Carried(one.parentJoint, convex(local), pin.SE3.Identity())
+            found[one.name] = Carried(one.parentJoint, convex(local))
     return found
 
 
@@ -69,11 +80,11 @@ def _capsules_of(arm: Arm) -> dict[str, Carried]:
     links, found = links_of(arm), {}
     for name, joint, core, radius in zip(*links, strict=True):
         pose, solid = segment_capsule(core[0], core[1], float(radius))
-        found[name] = Carried(int(joint), solid, pose)
+        found[name] = Carried(int(joint), solid, transform(pose))
     return found
 
 
-@lru_cache(maxsize=64)
+@kept_with_owner
 def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
     """Watched pairs of capsules of one arm one of which has a hull, by the name of the arm."""
     arms = {placed.name: placed.arm for placed in scene.arms if placed.arm.hulls}
@@ -91,9 +102,12 @@ def hull_pairs(scene: Scene) -> dict[str, list[HullPair]]:
 def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarray) -> None:
     """Raise the distances (N, P) of capsules where hulls show more, and move the points and
     normals of ``witness`` (N, P, 3, 3), unless it is empty, to the hulls."""
+    known = hull_pairs(scene)
+    if not known:
+        return
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     for placed in scene.arms:
-        pairs = hull_pairs(scene).get(placed.name)
+        pairs = known.get(placed.name)
         if not pairs:
             continue
         close = distance[:, [pair.column for pair in pairs]] < CAP
@@ -103,12 +117,13 @@ def refine(scene: Scene, q: np.ndarray, distance: np.ndarray, witness: np.ndarra
         own = q[rows, scene.columns[placed.name]].copy()
         frames = frames_of(placed.arm, placed.placement.homogeneous[:3], own)
         for n, frame in zip(rows, frames, strict=True):
+            joints = places(frame)
             for k in np.flatnonzero(close[n]):
                 column, first, second = pairs[k]
-                at = first.placed(frame), second.placed(frame)
+                at = first.placed(joints), second.placed(joints)
                 result.clear()
                 bodies = first.geometry, at[0], second.geometry, at[1]
-                gap = coal.distance(*bodies, request, result) - _GJK
+                gap = coal.distance(*bodies, request, result) - GJK
                 if gap <= distance[n, column]:
                     continue
                 distance[n, column] = value = min(gap, CAP)

@@ -18,6 +18,7 @@ from scipy.spatial import ConvexHull as Qhull
 from scipy.spatial import QhullError
 
 from ..errors import DataFileError
+from ..input_files import LARGEST_MESH, require_regular
 from .hull import ConvexHull
 
 FORMATS = (".stl", ".obj", ".dae", ".ply")
@@ -40,8 +41,7 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> tuple[np.ndarray
     if path.suffix.lower() not in FORMATS:
         expected = f"a mesh file that ends in {', '.join(FORMATS)}"
         raise DataFileError(path, "file", path.suffix, expected)
-    if not path.is_file():
-        raise DataFileError(path, "file", "nothing", "a readable mesh file")
+    require_regular(path, "a readable mesh file", LARGEST_MESH)
     try:
         model = coal.MeshLoader().load(str(path), np.array(scale))
         vertices = np.array(model.vertices())

@@ -8,17 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
+from ..arguments import LATER, Shape, checked
 from ..arms.arm import Arm
 from ..errors import InputError
 from .hull import ConvexHull
 from .quantities import array_of, finite_pose
 from .shapes import Box, Capsule, Sphere
+
+_SHORTEST = 1e-100  # between two indices, so that one over it is a number
+#: Times (N,).
+Times = Annotated[np.ndarray, Shape("N")]
 
 
 class _Track:
@@ -30,7 +36,7 @@ class _Track:
         expected = f"{count} finite numbers in increasing order"
         index = np.arange(count) if index is None else index
         self.index = array_of(source, "index", index, (count,), expected)
-        if not (np.diff(self.index) > 0).all():
+        if not (np.diff(self.index) > _SHORTEST).all():
             raise InputError(source, "index", index, expected)
 
     def _locate(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -45,6 +51,7 @@ class _Track:
         return np.column_stack([np.interp(time, self.index, column) for column in total.T])
 
 
+@checked
 class JointPath(_Track):
     """Joint vectors q_k at index t_k, q(t) linear in between.
 
@@ -63,18 +70,21 @@ class JointPath(_Track):
         )
         super().__init__("JointPath", len(self.configurations), index)
 
-    def at(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def at(self, time: Times) -> np.ndarray:
         """q(t) for times (N,), (N, nq)."""
         k, fraction = self._locate(time)
         after = np.minimum(k + 1, len(self.configurations) - 1)
         start = self.configurations[k]
         return start + fraction[:, None] * (self.configurations[after] - start)
 
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def travel(self, time: Times) -> np.ndarray:
         """Angle each joint has covered until t, back and forth added, (N, nq)."""
         return self._cumulative(time, np.abs(np.diff(self.configurations, axis=0)))
 
 
+@checked
 class PosePath(_Track):
     """Poses T_k at index t_k; translation linear and rotation about a fixed axis in between.
 
@@ -86,6 +96,8 @@ class PosePath(_Track):
     """
 
     def __init__(self, poses: Sequence[pin.SE3], index: ArrayLike | None = None) -> None:
+        if not isinstance(poses, Sequence) or not all(isinstance(one, pin.SE3) for one in poses):
+            raise InputError("PosePath", "poses", poses, "a sequence of pinocchio.SE3")
         super().__init__("PosePath", len(poses), index)
         self.translation = array_of(
             "PosePath", "poses", [pose.translation for pose in poses], (None, 3), "finite poses"
@@ -97,40 +109,50 @@ class PosePath(_Track):
         self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
 
-    def at(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def at(self, time: Times) -> np.ndarray:
         """T(t) for times (N,), upper parts (N, 3, 4)."""
         k, fraction = self._locate(time)
         turned = Rotation.from_rotvec(fraction[:, None] * self._turn[k]).as_matrix()
         translation = self.translation[k] + fraction[:, None] * self._step[k]
         return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
 
-    def travel(self, time: np.ndarray) -> np.ndarray:
+    @checked
+    def travel(self, time: Times) -> np.ndarray:
         """Distance covered [m] and angle turned [rad] until t, (N, 2)."""
         steps = [np.linalg.norm(part[:-1], axis=1) for part in (self._step, self._turn)]
         return self._cumulative(time, np.column_stack(steps))
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingShape:
     """A shape, given in its own frame, whose frame follows a path."""
 
-    shape: Sphere | Capsule | Box | ConvexHull
+    shape: Annotated[Sphere | Capsule | Box | ConvexHull, LATER]
     path: PosePath
 
     def __post_init__(self) -> None:
         if not isinstance(self.shape, Sphere | Capsule | Box | ConvexHull):
             expected = "Sphere, Capsule, Box or ConvexHull"
             raise InputError("MovingShape", "shape", self.shape, expected)
+        if not isinstance(self.path, PosePath):
+            raise InputError("MovingShape", "path", self.path, "a PosePath")
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MovingArm:
     """An arm on a base at ``placement`` that replays a joint path."""
 
     arm: Arm
     path: JointPath
-    placement: pin.SE3 = field(default_factory=pin.SE3.Identity)
+    placement: Annotated[pin.SE3, LATER] = field(default_factory=pin.SE3.Identity)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.arm, Arm):
+            raise InputError("MovingArm", "arm", self.arm, "an Arm, as load_arm gives it")
+        if not isinstance(self.path, JointPath):
+            raise InputError("MovingArm", "path", self.path, "a JointPath")
         finite_pose("MovingArm", "placement", self.placement)
         self.arm.configurations(self.path.configurations)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -66,8 +67,9 @@ def find_pairs(
 ) -> Pairs:
     """Every link of a controlled arm against every other body, with four exceptions.
 
-    Left out are two bodies that never move, neighbouring links of one arm, links of one arm whose
-    contact says nothing (:func:`saying_nothing`), and the exempt pairs.
+    Left out are two bodies that never move, neighbouring links of one arm but those whose contact
+    is known to count (:func:`counting`), links of one arm whose contact says nothing
+    (:func:`saying_nothing`), and the exempt pairs.
 
     Raises
     ------
@@ -78,14 +80,18 @@ def find_pairs(
         for name in pair:
             _require(name, bodies.all)
     silent = {placed.name: saying_nothing(placed.arm) for placed in arms}
+    near = {placed.name: counting(placed.arm) for placed in arms}
 
     def watched(a: Body, b: Body) -> bool:
         if (a.still and b.still) or any(_joins((a, b), *names) for names in exempt):
             return False
         if a.owner != b.owner:
             return True
-        neighbours = a.joint is None or b.joint is None or abs(a.joint - b.joint) <= 1
-        return self_collision and not neighbours and not silent[a.owner][a.link, b.link]
+        if not self_collision or a.joint is None or b.joint is None:
+            return False
+        if abs(a.joint - b.joint) <= 1:
+            return bool(near[a.owner][a.link, b.link])
+        return not silent[a.owner][a.link, b.link]
 
     links = [body for body in bodies.all if body.joint is not None]
     pairs = [
@@ -102,13 +108,27 @@ def saying_nothing(arm: Arm) -> np.ndarray:
     of the arm (:attr:`..arms.arm.Arm.exclusions`), else :func:`always_overlapping`."""
     if arm.exclusions is None:
         return always_overlapping(arm)
+    return _among(arm, ((one.first, one.second) for one in arm.exclusions))
+
+
+def counting(arm: Arm) -> np.ndarray:
+    """Mask (C, C) of capsules of adjacent links that are watched against each other
+    (:attr:`..arms.arm.Arm.neighbours`)."""
+    return _among(arm, ((one.first, one.second) for one in arm.neighbours))
+
+
+def _among(arm: Arm, pairs: Iterable[tuple[str, str]]) -> np.ndarray:
+    """Mask (C, C) of pairs of capsules given by the names of two capsules or two shapes."""
     names = links_of(arm).names
-    pairs = {frozenset((one.first, one.second)) for one in arm.exclusions}
-    known = [{name, shape_of(name)} for name in names]
+    rows = defaultdict(set)
+    for k, name in enumerate(names):
+        rows[name].add(k)
+        rows[shape_of(name)].add(k)
     mask = np.zeros((len(names), len(names)), dtype=bool)
-    for a, first in enumerate(known):
-        for b, second in enumerate(known):
-            mask[a, b] = any(frozenset((x, y)) in pairs for x in first for y in second)
+    for first, second in pairs:
+        for a in rows[first]:
+            for b in rows[second]:
+                mask[a, b] = mask[b, a] = True
     return mask
 
 

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import LATER, MOST, checked
+from ..errors import InputError
 from .moving import JointPath
 from .quantities import positive
 
 
+@checked
 def densify(
-    path: ArrayLike, max_step: float, index: ArrayLike | None = None
+    path: ArrayLike, max_step: Annotated[float, LATER], index: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Insert samples until no joint moves more than ``max_step`` between neighbours.
 
@@ -40,6 +45,8 @@ def densify(
     track = JointPath(path, index)
     step = positive("densify", "max_step", max_step, "rad")
     largest = np.abs(np.diff(track.configurations, axis=0)).max(axis=1, initial=0.0)
+    if not (largest / step).sum() <= MOST:
+        raise InputError("densify", "max_step", step, f"a step that needs at most {MOST} samples")
     pieces = np.maximum(np.ceil(largest / step).astype(int), 1)
     before = np.repeat(np.arange(len(pieces)), pieces)
     first = np.repeat(np.cumsum(pieces) - pieces, pieces)

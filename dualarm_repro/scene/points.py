@@ -8,10 +8,13 @@ choose whether to sum over the bars of a window or to take the nearest.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
+from ..arguments import LATER, checked
 from ..errors import InputError
 from ..kernel import kernel
 from .boxes import excess, shortest_exit
@@ -71,7 +74,10 @@ def to_hull(points, polytope, distance, gradient):
         gradient[k, 0], gradient[k, 1], gradient[k, 2] = scaled(-1.0, inward)
 
 
-def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndarray, np.ndarray]:
+@checked
+def point_distances(
+    points: ArrayLike, shapes: Annotated[Sequence[Shape], LATER]
+) -> tuple[np.ndarray, np.ndarray]:
     """d_m(p) and its gradient for every point and shape.
 
     Parameters
@@ -93,10 +99,17 @@ def point_distances(points: ArrayLike, shapes: Sequence[Shape]) -> tuple[np.ndar
     InputError
         ``points`` has another shape, NaN or infinity.
     """
-    points = np.asarray(points, dtype=float)
+    try:
+        points = real_array(points)
+    except (TypeError, ValueError):
+        raise InputError(
+            "point_distances", "points", points, "finite coordinates (..., 3)"
+        ) from None
     if points.ndim < 1 or points.shape[-1] != 3 or not np.isfinite(points).all():
         raise InputError("point_distances", "points", points, "finite coordinates (..., 3)")
     rows = np.ascontiguousarray(points.reshape(-1, 3))
+    if not isinstance(shapes, Sequence):
+        raise InputError("point_distances", "shapes", shapes, "a sequence of shapes")
     distance = np.empty((len(shapes), len(rows)))
     gradient = np.empty((len(shapes), len(rows), 3))
     for shape, d, g in zip(shapes, distance, gradient, strict=True):

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
-from ..arms.sliding import SlidingChain, sliding_frames
+from ..arms.chain import SlidingChain
+from ..arms.sliding import sliding_frames
 from ..kernel import kernel
+from ..tracking import kept_with_owner
 
 
 class Links(NamedTuple):
@@ -24,7 +26,8 @@ class Links(NamedTuple):
     radius: np.ndarray
 
 
-@lru_cache(maxsize=64)
+@checked
+@kept_with_owner
 def links_of(arm: Arm) -> Links:
     """Capsules of ``arm.geometry``."""
     data = arm.model.createData()
@@ -71,7 +74,7 @@ def frames_of(arm: Arm, base: np.ndarray, q: np.ndarray) -> np.ndarray:
 def link_frames(chain, base, q):
     """Frames of the base and of the joints, F_0 = base, F_j = F_(j-1) C_(j-1) Rz(q_j).
 
-    C_j are the constant transforms of :class:`dualarm_repro.arms.kernels.Chain`; z is the axis of
+    C_j are the constant transforms of :class:`dualarm_repro.arms.chain.Chain`; z is the axis of
     every joint.
 
     Parameters
@@ -84,20 +87,26 @@ def link_frames(chain, base, q):
     ndarray (N, n+1, 3, 4)
         Rotation and origin in world coordinates.
     """
-    count, joints = q.shape
-    frames = np.empty((count, joints + 1, 3, 4))
-    for n in range(count):
-        frames[n, 0] = base
-        for j in range(joints):
-            F, G, C, t = frames[n, j], frames[n, j + 1], chain.rotation[j], chain.translation[j]
-            s, c = np.sin(q[n, j]), np.cos(q[n, j])
-            for r in range(3):
-                x = F[r, 0] * C[0, 0] + F[r, 1] * C[1, 0] + F[r, 2] * C[2, 0]
-                y = F[r, 0] * C[0, 1] + F[r, 1] * C[1, 1] + F[r, 2] * C[2, 1]
-                G[r, 0], G[r, 1] = c * x + s * y, c * y - s * x
-                G[r, 2] = F[r, 0] * C[0, 2] + F[r, 1] * C[1, 2] + F[r, 2] * C[2, 2]
-                G[r, 3] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]
+    frames = np.empty((len(q), q.shape[1] + 1, 3, 4))
+    for n in range(len(q)):
+        set_frames(chain, base, q[n], frames[n])
     return frames
+
+
+@kernel
+def set_frames(chain, base, q, frames):
+    """The frames (n+1, 3, 4) of one configuration (n,) into ``frames``."""
+    frames[0] = base
+    for j in range(len(q)):
+        s, c = np.sin(q[j]), np.cos(q[j])
+        C, t = chain.rotation[j], chain.translation[j]
+        for r in range(3):
+            a, b, d = frames[j, r, 0], frames[j, r, 1], frames[j, r, 2]
+            x = a * C[0, 0] + b * C[1, 0] + d * C[2, 0]
+            y = a * C[0, 1] + b * C[1, 1] + d * C[2, 1]
+            frames[j + 1, r, 0], frames[j + 1, r, 1] = c * x + s * y, c * y - s * x
+            frames[j + 1, r, 2] = a * C[0, 2] + b * C[1, 2] + d * C[2, 2]
+            frames[j + 1, r, 3] = a * t[0] + b * t[1] + d * t[2] + frames[j, r, 3]
 
 
 def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:

@@ -54,7 +54,7 @@ def array_of(
     """Finite numbers of a shape as a read-only copy; None stands for any length."""
     try:
         array = np.array(value, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(source, name, value, expected) from None
     fits = len(shape) == array.ndim and all(
         wanted in (None, length) for wanted, length in zip(shape, array.shape, strict=True)

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import LATER, checked
 from ..arms.arm import Arm
 from ..arms.poses import check_configurations
 from ..errors import ConfigurationError, InputError, UnknownNameError
 from .bodies import Bodies, PlacedArm, Shape, collect
 from .moving import JointPath, MovingArm, MovingShape
 from .pairs import Pairs, find_pairs
+from .scene_arguments import check_arguments
 from .shapes import HalfSpace
 
 FLOOR = "floor"
 _TWO_TURNS = 2.0 * np.pi
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Everything that has a place in one world frame.
@@ -44,13 +49,13 @@ class Scene:
     Raises
     ------
     InputError
-        No arm, a name given twice or with a slash.
+        No arm, a name given twice or with a slash, an argument of the wrong type.
     UnknownNameError
         An exempt name that no body has.
     """
 
     arms: Sequence[PlacedArm]
-    obstacles: Mapping[str, Shape | Sequence[Shape]] = field(default_factory=dict)
+    obstacles: Annotated[Mapping[str, Shape | Sequence[Shape]], LATER] = field(default_factory=dict)
     moving: Mapping[str, MovingShape | MovingArm] = field(default_factory=dict)
     floor: float | None = None
     exempt: Collection[tuple[str, str]] = ()
@@ -59,13 +64,17 @@ class Scene:
     pairs: Pairs = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
+        check_arguments(
+            self.arms, self.obstacles, self.moving, self.floor, self.exempt, self.self_collision
+        )
         solids = dict(self.obstacles)
         names = [*(placed.name for placed in self.arms), *solids, *self.moving]
         if self.floor is not None:
             names.append(FLOOR)
             solids[FLOOR] = HalfSpace((0.0, 0.0, 1.0), self.floor)
+        times = Counter(names)
         for name in names:
-            if names.count(name) > 1 or not name or "/" in name:
+            if not isinstance(name, str) or times[name] > 1 or not name or "/" in name:
                 raise InputError("Scene", "name", name, "distinct names without a slash")
         if not self.arms:
             raise InputError("Scene", "arms", self.arms, "at least one arm")
@@ -110,6 +119,7 @@ class Scene:
                     row[start : start + body.joint] += value
         return sign
 
+    @checked
     def stack(self, **q: ArrayLike) -> np.ndarray:
         """Joint vectors of all arms, given by name, as one q: (nq,), or (N, nq) from rows.
 
@@ -128,6 +138,7 @@ class Scene:
             raise ConfigurationError("scene", "rows of the arms", lengths, "as many for each arm")
         return np.concatenate(parts, axis=-1)
 
+    @checked
     def configurations(self, q: ArrayLike) -> np.ndarray:
         """``q`` as a float64 array (nq,) or (N, nq).
 
@@ -139,6 +150,7 @@ class Scene:
         expected = f"{self.nq} finite numbers [rad] for {', '.join(self.columns)}, or rows of them"
         return check_configurations("scene", q, self.nq, expected)
 
+    @checked
     def replaying(self, name: str, path: JointPath) -> Scene:
         """The same scene with one controlled arm turned into an obstacle that follows ``path``.
 

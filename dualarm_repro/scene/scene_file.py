@@ -12,10 +12,13 @@ from typing import Annotated, Any, NamedTuple
 import pinocchio as pin
 from pydantic import Field
 
+from ..arguments import checked
 from ..arms import Arm, load_arm
 from ..arms.shapes import Shapes
 from ..datafiles import StrictModel
 from ..errors import DataFileError, DualArmError, InputError
+from ..input_files import path_of
+from ..written import read_written
 from .bodies import PlacedArm
 from .configuration_entry import Configuration
 from .moving import MovingShape, PosePath
@@ -24,7 +27,6 @@ from .scene import Scene
 from .shape_entries import ObstacleEntry, SolidEntry
 from .shapes import Shape
 from .tool import with_tool
-from .written import read_written
 
 #: Most obstacles of a scene.
 MOST_OBSTACLES = 10_000
@@ -112,6 +114,7 @@ class WrittenScene(NamedTuple):
     scene: Scene
 
 
+@checked
 def load_scene(path: str | Path) -> Scene:
     """Read a scene file.
 
@@ -126,7 +129,7 @@ def load_scene(path: str | Path) -> Scene:
     UnsupportedArmError
         A robot is no serial chain of joints that the library knows.
     """
-    path = Path(path)
+    path = path_of("load_scene", "path", path)
     return scene_of(path, read_written(path)).scene
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms.capsules import segment_capsule
 from ..errors import InputError
 from .hull import ConvexHull
@@ -36,6 +37,7 @@ class Sphere:
         """The center twice: a segment of length zero, (2, 3)."""
         return np.stack([self.center, self.center])
 
+    @checked
     def moved(self, placement: pin.SE3) -> Sphere:
         """The shape after a rigid motion."""
         return Sphere(placement.act(self.center), self.radius)
@@ -67,6 +69,7 @@ class Capsule:
         """Ends of the core segment, (2, 3)."""
         return np.stack([self.start, self.end])
 
+    @checked
     def moved(self, placement: pin.SE3) -> Capsule:
         """The shape after a rigid motion."""
         return Capsule(placement.act(self.start), placement.act(self.end), self.radius)
@@ -108,6 +111,7 @@ class Box:
         """Half edge lengths (3,)."""
         return 0.5 * self.size
 
+    @checked
     def moved(self, placement: pin.SE3) -> Box:
         """The shape after a rigid motion."""
         rotation = placement.rotation @ self.rotation
@@ -143,6 +147,7 @@ class HalfSpace:
         """Normal and offset, (4,)."""
         return np.append(self.normal, self.offset)
 
+    @checked
     def moved(self, placement: pin.SE3) -> HalfSpace:
         """The shape after a rigid motion."""
         normal = placement.rotation @ self.normal
@@ -166,6 +171,7 @@ def _set(shape: object, **values: object) -> None:
         object.__setattr__(shape, name, value)
 
 
+@checked
 def facing(normal: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
     """Rotation with columns width, height, normal; the height is the part of ``up`` normal to it.
 
@@ -182,6 +188,7 @@ def facing(normal: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
     return np.column_stack([x, np.cross(z, x), z])
 
 
+@checked
 def window_frame(
     center: ArrayLike,
     rotation: ArrayLike,

@@ -8,7 +8,8 @@ import pinocchio as pin
 
 from ..arms.arm import Arm
 from ..arms.capsules import enclosing_capsules
-from ..arms.exclusions import Evidence, Exclusion, link_of
+from ..arms.exclusions import Evidence, Exclusion, Neighbours, link_of
+from ..arms.fit.neighbours import adjacent_pairs, neighbours
 from ..errors import InputError
 from .pairs import SAMPLES, always_overlapping
 from .posing import links_of
@@ -47,14 +48,26 @@ def with_tool(arm: Arm, shapes: Sequence[Shape], tip: pin.SE3 | None = None) -> 
             made.addGeometryObject(one)
         return made
 
+    def exact() -> pin.GeometryModel | None:
+        if arm.solids is None:
+            return None
+        made = arm.solids.copy()
+        for one in bodies.geometryObjects:
+            made.addGeometryObject(one)
+        return made
+
     def silent() -> tuple[Exclusion, ...] | None:
-        names = {one.name for one in bodies.geometryObjects}
         if arm.exclusions is None:
             return None
-        return (*arm.exclusions, *_always_in_touch(held, names))
+        in_touch = _always_in_touch(held, names)
+        return (*arm.exclusions, *_beside_tool(held, names)[1], *in_touch)
+
+    def beside() -> tuple[Neighbours, ...]:
+        return (*arm.neighbours, *_beside_tool(held, names)[0])
 
     at_tip = None if tip is None else (TIP, tip)
-    held = arm.reshaped(carried, f"{arm.name} with tool", at_tip, silent)
+    names = {one.name for one in bodies.geometryObjects}
+    held = arm.reshaped(carried, f"{arm.name} with tool", at_tip, silent, beside, exact)
     return held
 
 
@@ -64,6 +77,15 @@ def name_of_tool(arm: Arm) -> str:
     while name in links:
         name = f"held_{name}"
     return name
+
+
+def _beside_tool(held: Arm, tools: Collection[str]) -> tuple[list[Neighbours], list[Exclusion]]:
+    """Parts of the tool and shapes of the link before that of the flange: those that are watched,
+    and those that touch without saying anything. Without evidence of the arm capsules count."""
+    shapes = held.geometry if held.fit is None or held.solids is None else held.solids
+    known = [one.name in tools for one in shapes.geometryObjects]
+    pairs = [(i, j) for i, j in adjacent_pairs(shapes) if known[i] != known[j]]
+    return neighbours(held.model, shapes, pairs)
 
 
 def _always_in_touch(held: Arm, tools: Collection[str]) -> list[Exclusion]:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..planning.checks.arrival import arrives
+from ..planning.checks.arrival import BEGUN, arrives, away_from_start
 from ..planning.checks.truth import truth
 from ..planning.gate import require_sound
 from ..planning.tasks.path_file import read_paths
 from ..planning.tasks.task_file import TaskSet, load_tasks
 from ..scene import JointPath
 from ..settings import Settings
-from .plan_report import judged, told, usable
+from .plan_report import judged, remarks, told, usable
 from .scene3d import Scene3D
 from .task_scene import drawn_scene
 
@@ -24,7 +25,8 @@ def check_summary(
 ) -> dict[str, Any]:
     """Certified distances along the paths of the files, or at the starts and goals of the scene.
 
-    An arm without a path stays where the scene parks or starts it.
+    An arm without a path stays where the scene parks or starts it. A path that does not begin there
+    is not usable: nobody knows how the arm is to get to its first row.
 
     Raises
     ------
@@ -42,14 +44,33 @@ def check_summary(
         for placed in given.scene.arms
         if (task := given.tasks.get(placed.name)) and files
     }
-    reached = all(arrived.values())
+    reached, away = all(arrived.values()), away_from_starts(given, paths)
+    arms: dict[str, dict[str, Any]] = {name: {"away_from_start": away[name]} for name in away}
+    for name, value in arrived.items():
+        arms[name]["reached"] = value
+    begun = begins(away)
     return {
-        "arms": {name: {"reached": value} for name, value in arrived.items()},
+        "arms": arms,
+        "begun": begun,
         "reached": reached,
-        "usable": usable(found, reached),
-        "outcome": told(found, reached),
+        "usable": usable(found, reached, begun),
+        "outcome": told(found, reached, begun),
+        "remarks": remarks(given.scene),
         **judged(found),
     }
+
+
+def away_from_starts(given: TaskSet[Settings], paths: Mapping[str, JointPath]) -> dict[str, float]:
+    """Of every arm how far the first row of its path is from its start, largest joint [rad, m]."""
+    return {
+        one.name: away_from_start(one, given.starts[one.name], paths[one.name].configurations[0])
+        for one in given.scene.arms
+    }
+
+
+def begins(away: Mapping[str, float]) -> bool:
+    """Whether all of these distances are rounding."""
+    return all(gap <= BEGUN for gap in away.values())
 
 
 def checked_paths(given: TaskSet[Settings], files: list[Path]) -> dict[str, JointPath]:

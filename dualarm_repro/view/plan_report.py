@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -14,10 +14,13 @@ from ..planning.checks.truth import Truth, Verdict, truth
 from ..planning.gate import require_sound
 from ..planning.methods import METHODS, AnyPlan, plan_file
 from ..planning.tasks.task_file import load_tasks
+from ..scene import MovingArm, Scene
 from ..settings import Settings
-from .page import Page
 from .scene3d import Scene3D
 from .task_scene import drawn_scene
+
+if TYPE_CHECKING:
+    from .page import Page
 
 _COMPARED = ("arrive", "outcome", "steps", "certified distance [m]", "between")
 PARKED = "parked"
@@ -50,7 +53,15 @@ def plan_summary(plan: AnyPlan, found: Truth | None = None) -> dict[str, Any]:
         if name not in arms:
             still = {"steps": 0, "beyond_limits": found.beyond_limits[name]}
             arms[name] = {"reason": PARKED, "reached": True, **still}
-    return {"arms": arms, "reached": plan_reached(plan), **judged(found)}
+    told_of = {"reached": plan_reached(plan), "remarks": remarks(plan.scene)}
+    return {"arms": arms, **told_of, **judged(found)}
+
+
+def remarks(scene: Scene) -> dict[str, list[str]]:
+    """Of every arm what its robot file says that is represented otherwise or not at all."""
+    arms = [(one.name, one.arm) for one in scene.arms]
+    arms += [(name, one.arm) for name, one in scene.moving.items() if isinstance(one, MovingArm)]
+    return {name: list(arm.remarks) for name, arm in arms if arm.remarks}
 
 
 def plan_reached(plan: AnyPlan) -> bool:
@@ -73,17 +84,19 @@ def judged(found: Truth) -> dict[str, Any]:
     }
 
 
-def told(found: Truth, reached: bool) -> str:
+def told(found: Truth, reached: bool, begun: bool = True) -> str:
     """Outcome in words: everything that keeps a motion from being run, or that nothing does."""
-    wrong = [] if reached else ["not arrived"]
+    wrong = [] if begun else ["not from the start"]
+    wrong += [] if reached else ["not arrived"]
     wrong += [] if found.within_limits else ["beyond joint limits"]
     wrong += [] if found.collision_free else [str(found.verdict)]
     return ", ".join(wrong) or f"arrived, {Verdict.FREE}"
 
 
-def usable(found: Truth, reached: bool) -> bool:
-    """Whether all arrived, within their limits and certified free of contact."""
-    return reached and found.within_limits and found.collision_free
+def usable(found: Truth, reached: bool, begun: bool = True) -> bool:
+    """Whether all began at their starts and arrived, within their limits and certified free of
+    contact."""
+    return begun and reached and found.within_limits and found.collision_free
 
 
 def compare_methods(path: str | Path, allow_collision: bool = False) -> pd.DataFrame:
@@ -125,6 +138,8 @@ def compare_methods(path: str | Path, allow_collision: bool = False) -> pd.DataF
 
 def plan_page(plan: AnyPlan, title: str) -> Page:
     """The motion of all arms for a page of the book."""
+    from .page import Page  # which draws figures, too
+
     return Page(plan_scene(plan, title).page_html())
 
 

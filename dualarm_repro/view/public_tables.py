@@ -54,13 +54,14 @@ def contact_page() -> Page:
         "false alarms [%]": 100.0 * rows["false_alarms"] / rows["clear"].clip(lower=1),
         "missed": rows["missed"],
         "left out": rows["excluded"],
-        "plan": [_told(one) for one in rows["pair_reached"]],
+        "plan": rows["pair_reason"],
+        "apart [m]": rows["pair_apart"],
         "report [mm]": 1e3 * rows["pair_lower"].astype(float),
         "meshes [mm]": 1e3 * rows["pair_meshes"].astype(float),
     }
     whole = dict.fromkeys(("clear", "missed", "left out"), _WHOLE)
     tenth = dict.fromkeys(("false alarms [%]", "report [mm]", "meshes [mm]"), "{:.1f}")
-    return table(pd.DataFrame(shown), {**whole, **tenth})
+    return table(pd.DataFrame(shown), {**whole, **tenth, "apart [m]": "{:.2f}"})
 
 
 def refused_page() -> Page:
@@ -83,9 +84,3 @@ def _names(rows: pd.DataFrame) -> list[str]:
 def _breaking(name: str) -> str:
     """A long name, which may go on in the next line after an underscore."""
     return name.replace("_", "_\u200b")
-
-
-def _told(reached: object) -> str:
-    if reached is None or pd.isna(reached):
-        return "no clear posture"
-    return "found" if reached else "none found"

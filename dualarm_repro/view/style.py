@@ -1,16 +1,17 @@
-"""House style of the figures: one width, letters of 8 pt or more, colours for every eye."""
+"""House style of the figures: one width, letters of 8 pt or more, colours for every eye.
+
+Matplotlib is imported when something is drawn with it: a 3-D scene needs only the colours.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
-from matplotlib.rcsetup import cycler
-
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from matplotlib.typing import RcKeyType
 
 #: Okabe and Ito's palette, which stays distinct under the common kinds of colour-blindness.
@@ -35,7 +36,6 @@ PAD = 0.05
 SMALL = 8.0
 
 _SETTINGS: dict[RcKeyType, Any] = {
-    "axes.prop_cycle": cycler(color=PALETTE),
     "axes.grid": True,
     "axes.axisbelow": True,
     "axes.spines.top": False,
@@ -81,17 +81,28 @@ _TICKS = 5  # along the longest side of a 3-D drawing
 @contextmanager
 def house_style() -> Iterator[None]:
     """Draw figures inside this context."""
-    with mpl.rc_context(_SETTINGS):
+    import matplotlib as mpl
+
+    with mpl.rc_context(_settings()):
         yield
+
+
+@cache
+def _settings() -> dict[RcKeyType, Any]:
+    from matplotlib.rcsetup import cycler
+
+    return {"axes.prop_cycle": cycler(color=PALETTE), **_SETTINGS}
 
 
 def axes_3d(
     width: float = 6.4, height: float = 5.2, columns: int = 1, **view: Unpack[View]
-) -> tuple[mpl.figure.Figure, Any]:
+) -> tuple[Figure, Any]:
     """Figure with one or several 3-D axes labelled x, y, z in metres.
 
     ``view`` goes to ``Axes3D.view_init``.
     """
+    import matplotlib.pyplot as plt
+
     figure = plt.figure(figsize=(width, height))
     axes = [figure.add_subplot(1, columns, k + 1, projection="3d") for k in range(columns)]
     for ax in axes:
@@ -115,12 +126,14 @@ def same_scale(ax: Any, zoom: float = 1.0, stretch: float = 1.0) -> None:
     stretch
         How much larger z is drawn than x and y.
     """
+    from matplotlib.ticker import MaxNLocator
+
     sides = [abs(high - low) for low, high in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())]
     drawn = [sides[0], sides[1], stretch * sides[2]]
     ax.set_box_aspect(drawn, zoom=zoom)
     for axis, side in zip((ax.xaxis, ax.yaxis, ax.zaxis), drawn, strict=True):
         share = side / max(drawn)
         count = 1 if share < 0.12 else max(2, round(_TICKS * share))
-        axis.set_major_locator(mpl.ticker.MaxNLocator(count))
+        axis.set_major_locator(MaxNLocator(count))
         axis.set_tick_params(pad=0)
         axis.labelpad = 2

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
+from ..arguments import Shape, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
@@ -21,6 +23,7 @@ BASE_READINGS = ("inverted", "literal")
 CARRIER_REFERENCES = ("workpiece_origin", "pipe_end", "own_flange")
 
 
+@checked
 @dataclass(frozen=True)
 class Workpiece:
     """Main pipe along x, branch along z from its middle, lengths in metres."""
@@ -67,6 +70,7 @@ class Workpiece:
         return np.array([self.radius_main, self.radius_branch, rim, rim])
 
 
+@checked
 @dataclass(frozen=True)
 class Tools:
     """How the carriers grip and the welder reaches; names as in :mod:`.tooling`."""
@@ -84,7 +88,8 @@ class Tools:
             )
 
 
-def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
+@checked
+def base_poses(matrices: Annotated[np.ndarray, Shape("K", 4, 4)], reading: str) -> np.ndarray:
     """Poses of the bases in the world from the matrices M that a document gives them.
 
     The product ^B_c T = ^B_w T ^w_c T needs ^B_w T: M^-1 if M is the pose of the base in the world
@@ -92,7 +97,7 @@ def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
 
     Parameters
     ----------
-    matrices : ndarray (3, 4, 4)
+    matrices : ndarray (K, 4, 4)
 
     Raises
     ------
@@ -102,9 +107,16 @@ def base_poses(matrices: np.ndarray, reading: str) -> np.ndarray:
     if reading not in BASE_READINGS:
         expected = f"one of {', '.join(BASE_READINGS)}"
         raise UnknownNameError("base_poses", "reading", reading, expected)
-    return matrices if reading == "inverted" else np.linalg.inv(matrices)
+    if reading == "inverted":
+        return matrices
+    try:
+        return np.linalg.inv(matrices)
+    except np.linalg.LinAlgError:
+        expected = "matrices that have an inverse"
+        raise InputError("base_poses", "matrices", matrices, expected) from None
 
 
+@checked
 def assemble(
     arms: Sequence[Arm],
     bases: np.ndarray,

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
+from ..arguments import Vector3, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
@@ -14,8 +17,11 @@ from ..errors import InputError
 
 ROBOTS = ("carrier 1", "carrier 2", "welder")
 WELDER = 2
+#: Index among :data:`ROBOTS`.
+Robot = Annotated[int, Field(ge=0, le=2)]
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Cell:
     """Everything about the job except where it takes place.
@@ -101,7 +107,8 @@ class Cell:
         """Number of seam points N."""
         return len(self.rotations)
 
-    def limits(self, robot: int) -> tuple[np.ndarray, np.ndarray]:
+    @checked
+    def limits(self, robot: Robot) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper joint limits of a robot (6,) [rad]."""
         return self.arms[robot].limits(self.joint_limits)
 
@@ -114,10 +121,12 @@ class Cell:
         """From each flange to its reference point, in world axes (3, N, 3) [m]."""
         return self.references - self.flanges[..., :3, 3]
 
-    def seam_in_world(self, centre: np.ndarray) -> np.ndarray:
+    @checked
+    def seam_in_world(self, centre: Vector3) -> np.ndarray:
         """p_w = C + R(theta) p_c at each seam point (N, 3) [m]."""
         return centre + np.einsum("nij,nj->ni", self.rotations, self.seam)
 
-    def piece_pose(self, centre: np.ndarray) -> np.ndarray:
+    @checked
+    def piece_pose(self, centre: Vector3) -> np.ndarray:
         """^w_c T = [R(theta), C; 0, 1] at each seam point (N, 4, 4) [m]."""
         return homogeneous(self.rotations, centre)

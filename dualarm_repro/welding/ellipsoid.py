@@ -6,7 +6,8 @@ from math import gamma, pi
 
 import numpy as np
 
-from ..arms.kernels import jacobians
+from ..arms.chain import Chain
+from ..arms.kernels import Kinematics
 from ..kernel import kernel
 
 
@@ -72,8 +73,9 @@ def intersection_volume_monte_carlo(
     return volume * share, volume * (share * (1 - share) / count) ** 0.5
 
 
-@kernel
-def gram_matrices(chain, rotation, q, lever, rows):
+def gram_matrices(
+    chain: Chain, rotation: np.ndarray, q: np.ndarray, lever: np.ndarray, rows: int
+) -> np.ndarray:
     """A = J J^T (M, rows, rows) in world axes at the point ``lever`` away from the flange.
 
     The velocity of the point is v + omega x r, with r given in world axes.
@@ -88,7 +90,12 @@ def gram_matrices(chain, rotation, q, lever, rows):
     rows : int
         3 for the translational velocity, 6 for the twist.
     """
-    local = jacobians(chain, q)
+    found: np.ndarray = _grams(Kinematics(chain).jacobians(q), rotation, lever, rows)
+    return found
+
+
+@kernel
+def _grams(local, rotation, lever, rows):
     count, _, n = local.shape
     out = np.empty((count, rows, rows))
     column = np.empty((6, n))

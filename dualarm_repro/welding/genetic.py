@@ -8,14 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import ceil
 from numbers import Integral
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
-from scipy.spatial.distance import pdist
 
+from ..annotation import real_array
+from ..arguments import LATER, checked
 from ..errors import InputError, UnknownNameError
+from .generation import (
+    crossed,
+    mean_distance,
+    pointed_at,
+    shifted,
+    sorted_by_value,
+    stepped,
+)
 
 Fitness = Callable[[np.ndarray], np.ndarray]
 MUTATIONS = ("gaussian", "adaptive_feasible")
@@ -25,6 +35,7 @@ _REDRAWS = 10
 _SMALLEST_STEP = 1e-6
 
 
+@checked
 @dataclass(frozen=True)
 class GeneticSettings:
     """Settings of a run.
@@ -81,7 +92,13 @@ class GeneticSettings:
                 expected = f"one of {', '.join(choices)}"
                 raise UnknownNameError("genetic algorithm", name, getattr(self, name), expected)
 
-    @property
+    @cached_property
+    def wheel(self) -> np.ndarray:
+        """Shares of the ranks, 1/sqrt(rank), summed up from the first to the last (P,)."""
+        share = 1.0 / np.sqrt(np.arange(1, self.population + 1))
+        return np.cumsum(share / share.sum())
+
+    @cached_property
     def counts(self) -> tuple[int, int, int]:
         """Numbers of elite, crossover children and mutants in a generation."""
         elite = ceil(self.elite * self.population)
@@ -142,10 +159,11 @@ def initialise(search: Search) -> None:
 
 def evaluate(search: Search) -> None:
     """Solve the job of every new individual; a violated constraint gives fitness 0"""
-    new = np.arange(search.settings.population) >= search.known
-    search.values[new] = search.fitness(search.individuals[new])
-    search.evaluations += int(new.sum())
+    known, population = search.known, search.settings.population
+    search.values[known:] = rated(search.fitness, search.individuals[known:])
+    search.evaluations += population - known
     if search.settings.infeasible == "redraw":
+        new = np.arange(population) >= known
         for _ in range(_REDRAWS):
             bad = new & (search.values <= 0)
             if not bad.any():
@@ -153,19 +171,20 @@ def evaluate(search: Search) -> None:
             search.individuals[bad] = search.rng.uniform(
                 search.low, search.high, (int(bad.sum()), len(search.low))
             )
-            search.values[bad] = search.fitness(search.individuals[bad])
+            search.values[bad] = rated(search.fitness, search.individuals[bad])
             search.evaluations += int(bad.sum())
 
 
 def rank(search: Search) -> None:
     """Sort by fitness and record best, mean and mean distance"""
-    order = np.argsort(-search.values, kind="stable")
-    search.individuals, search.values = search.individuals[order], search.values[order]
+    search.individuals, search.values = sorted_by_value(search.individuals, search.values)
+    values, count = search.values, len(search.values)
+    feasible = count - int(values[::-1].searchsorted(0.0, "right"))
     record = Generation(
-        best=float(search.values[0]),
-        mean=float(search.values.mean()),
-        distance=float(pdist(search.individuals).mean()),
-        feasible=float((search.values > 0).mean()),
+        best=float(values[0]),
+        mean=float(np.add.reduce(values) / count),
+        distance=mean_distance(search.individuals),
+        feasible=feasible / count,
     )
     if search.history:
         grown = record.best > search.history[-1].best
@@ -178,9 +197,15 @@ def finished(search: Search) -> bool:
     settings, history = search.settings, search.history
     if len(history) > settings.generations:
         search.reason = "generations"
-    elif rests(np.array([getattr(g, settings.stall_of) for g in history]), settings):
+    elif rests(_watched(history, settings), settings):
         search.reason = "stall"
     return search.reason is not None
+
+
+def _watched(history: list[Generation], settings: GeneticSettings) -> np.ndarray:
+    """The fitness that decides about a stall, of the generations that it is decided by."""
+    last = history[-1 - settings.stall_generations :]
+    return np.array([g.mean if settings.stall_of == "mean" else g.best for g in last])
 
 
 def rests(values: np.ndarray, settings: GeneticSettings) -> bool:
@@ -188,29 +213,28 @@ def rests(values: np.ndarray, settings: GeneticSettings) -> bool:
     window = settings.stall_generations
     if len(values) <= window or values[-1] <= 0:
         return False
-    changes = np.abs(np.diff(values[-1 - window :]))
-    return bool(changes.mean() <= settings.stall * values[-1])
+    last = values[-1 - window :]
+    changes = np.abs(last[1:] - last[:-1])
+    return bool(np.add.reduce(changes) / window <= settings.stall * values[-1])
 
 
 def select(search: Search) -> None:
     """Draw parents in proportion to 1/sqrt(rank) with equally spaced pointers"""
-    _, crossed, mutants = search.settings.counts
-    count = 2 * crossed + mutants
-    share = 1.0 / np.sqrt(np.arange(1, search.settings.population + 1))
-    wheel = np.cumsum(share / share.sum())
-    pointers = (np.arange(count) + search.rng.random()) / count
-    chosen = np.searchsorted(wheel, np.minimum(pointers, wheel[-1]))
+    _, pairs, mutants = search.settings.counts
+    chosen = pointed_at(search.settings.wheel, search.rng.random(), 2 * pairs + mutants)
     search.parents = search.individuals[search.rng.permutation(chosen)]
 
 
 def reproduce(search: Search) -> None:
     """Keep the elite, cross pairs of parents coordinate by coordinate, mutate the rest"""
-    elite, crossed, _ = search.settings.counts
-    first, second, others = np.split(search.parents, [crossed, 2 * crossed])
-    mask = search.rng.random(first.shape) < 0.5
-    children = [search.individuals[:elite], np.where(mask, first, second), _mutated(search, others)]
-    search.individuals = np.concatenate(children)
-    search.values = np.concatenate([search.values[:elite], np.zeros(len(first) + len(others))])
+    elite, pairs, _ = search.settings.counts
+    parents, children = search.parents, np.empty_like(search.individuals)
+    children[:elite] = search.individuals[:elite]
+    draws = search.rng.random((pairs, children.shape[1]))
+    crossed(parents[:pairs], parents[pairs : 2 * pairs], draws, children[elite : elite + pairs])
+    _mutate(search, parents[2 * pairs :], children[elite + pairs :])
+    search.individuals = children
+    search.values[elite:] = 0.0
     search.known = elite
 
 
@@ -218,9 +242,10 @@ def reproduce(search: Search) -> None:
 LOOP: tuple[Callable[[Search], bool | None], ...] = (evaluate, rank, finished, select, reproduce)
 
 
+@checked
 def evolve(
     fitness: Fitness,
-    box: np.ndarray,
+    box: Annotated[np.ndarray, LATER],
     settings: GeneticSettings,
     rng: np.random.Generator,
     *,
@@ -242,7 +267,7 @@ def evolve(
     InputError
         A bound that is not finite, lower bounds not below upper ones, or nothing feasible.
     """
-    low, high = checked_box(box).T
+    low, high = np.ascontiguousarray(checked_box(box).T)
     search = Search(fitness, low, high, settings, rng)
     initialise(search)
     while search.reason is None:
@@ -263,6 +288,23 @@ def evolve(
     )
 
 
+def rated(fitness: Fitness, individuals: np.ndarray) -> np.ndarray:
+    """Fitness (P,) of individuals (P, n).
+
+    Raises
+    ------
+    InputError
+        What the fitness gives is no finite number each, which would rank as anything.
+    """
+    values, expected = fitness(individuals), f"{len(individuals)} finite numbers"
+    array = np.asarray(values)
+    if array.shape != (len(individuals),) or array.dtype.kind not in "fiu":
+        raise InputError("search", "fitness", values, expected)
+    if not np.isfinite(array).all():
+        raise InputError("search", "fitness", float(array[~np.isfinite(array)][0]), expected)
+    return array
+
+
 def checked_box(box: np.ndarray) -> np.ndarray:
     """The box (n, 2) as floats.
 
@@ -271,22 +313,22 @@ def checked_box(box: np.ndarray) -> np.ndarray:
     InputError
         See :func:`evolve`.
     """
-    array = np.asarray(box, dtype=float)
+    expected = "finite rows [lower, upper], lower < upper"
+    try:
+        array = real_array(box)
+    except (TypeError, ValueError):
+        raise InputError("search", "box", box, expected) from None
     good = array.ndim == 2 and array.shape[1:] == (2,) and np.isfinite(array).all()
     if not good or (array[:, 0] >= array[:, 1]).any():
-        raise InputError(
-            "search", "box", array.tolist(), "finite rows [lower, upper], lower < upper"
-        )
+        raise InputError("search", "box", array.tolist(), expected)
     return array
 
 
-def _mutated(search: Search, parents: np.ndarray) -> np.ndarray:
+def _mutate(search: Search, parents: np.ndarray, children: np.ndarray) -> None:
     size = search.high - search.low
     noise = search.rng.normal(size=parents.shape)
     if search.settings.mutation == "gaussian":
         left = 1.0 - len(search.history) / (search.settings.generations + 1)
-        return np.clip(parents + left * size * noise, search.low, search.high)
-    direction = size * search.step * noise / np.linalg.norm(noise, axis=1, keepdims=True)
-    room = np.where(direction > 0, search.high - parents, parents - search.low)
-    inside = np.min(room / np.maximum(np.abs(direction), 1e-300), axis=1, keepdims=True)
-    return np.clip(parents + np.minimum(1.0, inside) * direction, search.low, search.high)
+        shifted(parents, noise, left * size, search.low, search.high, children)
+    else:
+        stepped(parents, noise, search.step * size, search.low, search.high, children)

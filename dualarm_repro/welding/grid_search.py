@@ -6,7 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .genetic import Fitness, checked_box
+from ..arguments import MOST, Count, Positive, checked
+from ..errors import InputError
+from .genetic import Fitness, checked_box, rated
 
 _SHRINK = 0.5
 #: Values that differ by no more, relative, are equal: round-off must not choose between them.
@@ -24,6 +26,11 @@ class Optimum(NamedTuple):
 def grid_points(box: np.ndarray, spacing: float) -> np.ndarray:
     """Points (P, n) of a grid over the box, at most ``spacing`` apart along each axis."""
     box = checked_box(box)
+    sides = (box[:, 1] - box[:, 0]) / spacing + 1.0 if spacing > 0 else np.array([np.inf])
+    if not np.prod(sides) <= MOST:
+        raise InputError(
+            "grid", "spacing", spacing, f"a length [m] that gives at most {MOST} points"
+        )
     axes = [np.linspace(a, b, int(np.ceil((b - a) / spacing - 1e-9)) + 1) for a, b in box]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(box))
 
@@ -69,11 +76,11 @@ def pattern_search(
     """
     box = checked_box(box)
     position = np.clip(np.asarray(start, dtype=float), *box.T)
-    value, evaluations = float(fitness(position[np.newaxis])[0]), 1
+    value, evaluations = float(rated(fitness, position[np.newaxis])[0]), 1
     directions = np.concatenate([np.eye(len(box)), -np.eye(len(box))])
     while step > tolerance:
         polled = np.clip(position + step * directions, *box.T)
-        values = fitness(polled)
+        values = rated(fitness, polled)
         evaluations += len(polled)
         best = ranked(polled, values)[0]
         if values[best] - value > TIE * abs(value):
@@ -95,12 +102,13 @@ def refined(
     return best._replace(evaluations=sum(end.evaluations for end in ends))
 
 
+@checked
 def grid_optimum(
     fitness: Fitness,
     box: np.ndarray,
-    spacing: float,
-    starts: int = 8,
-    tolerance: float = 1e-5,
+    spacing: Positive,
+    starts: Count = 8,
+    tolerance: Positive = 1e-5,
     values: np.ndarray | None = None,
 ) -> Optimum:
     """Best point of a grid after refinement of its best cells.
@@ -123,7 +131,7 @@ def grid_optimum(
     """
     points, spent = grid_points(box, spacing), 0
     if values is None:
-        values, spent = fitness(points), len(points)
+        values, spent = rated(fitness, points), len(points)
     cells = best_cells(points, values, starts, spacing)
     end = refined(fitness, cells, box, 0.5 * spacing, tolerance)
     return end._replace(evaluations=end.evaluations + spent)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arguments import Count, Positive, checked
 from ..arms.wrist_ik import inverse_kinematics
 from ..errors import UnknownNameError
 from .branches import Status
@@ -36,7 +37,8 @@ class Survey(NamedTuple):
     status: np.ndarray
 
 
-def survey(placement: Placement, box: np.ndarray, spacing: float) -> Survey:
+@checked
+def survey(placement: Placement, box: np.ndarray, spacing: Positive) -> Survey:
     """Fitness and constraints on the :func:`.grid_search.grid_points` of the region."""
     points, rated = grid_points(box, spacing), []
     for block in blocks(points):
@@ -71,14 +73,15 @@ def reaches_point(cell: Cell, centres: np.ndarray, point: int) -> np.ndarray:
     return reached
 
 
+@checked
 def extreme_position(
     placement: Placement,
     box: np.ndarray,
     rule: str,
     *,
-    spacing: float,
-    starts: int,
-    tolerance: float = 1e-3,
+    spacing: Positive,
+    starts: Count,
+    tolerance: Positive = 1e-3,
     known: Survey | None = None,
 ) -> Optimum:
     """Feasible position that a rule calls poor, and its score.

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from ..arms import Arm
 from ..arms.wrist_geometry import wrist_geometry
 from ..errors import UnknownNameError
@@ -14,7 +16,8 @@ from ..kernel import kernel
 PAIR_MEASURES = ("product", "geometric_mean")
 
 
-def closed_form(arm: Arm, q: np.ndarray) -> np.ndarray:
+@checked
+def closed_form(arm: Arm, q: ArrayLike) -> np.ndarray:
     """w = |det J| = l_2 l_3 |sin phi| |x_w| |sin q_5'| of six joints with a spherical wrist.
 
     The Jacobian at the wrist centre is block-triangular. phi is the angle between upper arm and
@@ -37,7 +40,9 @@ def closed_form(arm: Arm, q: np.ndarray) -> np.ndarray:
     UnsupportedArmError
         The arm has no spherical wrist.
     """
-    return manipulabilities(wrist_geometry(arm.name, arm.chain), np.atleast_2d(q))
+    return manipulabilities(
+        wrist_geometry(arm.name, arm.chain), np.atleast_2d(arm.configurations(q))
+    )
 
 
 @kernel

@@ -5,17 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms import Arm
 from ..differences import central_differences
-from .cell import ROBOTS, WELDER, Cell
+from .cell import ROBOTS, WELDER, Cell, Robot
 from .placement import Jobs
 
 
-def flange_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+@checked
+def flange_poses(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Poses of a flange in the world along the first job (N, 4, 4) [m]."""
     return cell.bases[robot] @ cell.arms[robot].fk(jobs.q[0, robot])
 
 
+@checked
 def torch_tips(cell: Cell, jobs: Jobs) -> np.ndarray:
     """Tip of the torch in the world along the first job (N, 3) [m]."""
     flange, fixed = flange_poses(cell, jobs, WELDER), cell.flanges[WELDER]
@@ -23,14 +26,15 @@ def torch_tips(cell: Cell, jobs: Jobs) -> np.ndarray:
     return flange[:, :3, :3] @ lever + flange[:, :3, 3]
 
 
-def held_poses(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+@checked
+def held_poses(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Pose of the workpiece (N, 4, 4) that the joint path of a carrier and its grasp give [m]."""
     local = cell.flanges[robot][0].copy()
     local[:3] = cell.rotations[0].T @ local[:3]
     return flange_poses(cell, jobs, robot) @ np.linalg.inv(local)
 
 
-def stretch(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
+def stretch(cell: Cell, jobs: Jobs, robot: Robot) -> np.ndarray:
     """Distance of a wrist from its shoulder along the first job, over the largest there is (N,)."""
     geometry = cell.geometries[robot]
     joints = np.array([cell.arms[robot].joint_positions(q) for q in jobs.q[0, robot]])
@@ -38,6 +42,7 @@ def stretch(cell: Cell, jobs: Jobs, robot: int) -> np.ndarray:
     return apart / (geometry.upper_arm[0] + geometry.forearm[0])
 
 
+@checked
 def joint_margin(cell: Cell, jobs: Jobs) -> float:
     """Smallest margin of the first job to a joint limit [rad], negative beyond one."""
     limits = [cell.limits(k) for k in range(len(ROBOTS))]

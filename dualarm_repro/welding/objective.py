@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from ..arguments import OPEN, Shape, checked
 from ..errors import InputError, UnknownNameError
 from .cell import Cell
 from .ellipsoid import coupled_pair_volume, ellipsoid_volume, gram_matrices
@@ -35,6 +36,7 @@ class Measures(NamedTuple):
     beta_loose: np.ndarray
 
 
+@checked
 @dataclass(frozen=True)
 class Objective:
     """One reading of the measure; the fields are explained by :data:`CHOICES`.
@@ -69,7 +71,12 @@ class Objective:
         """Whether the weights are taken from ellipsoids."""
         return self.weights == "inverse_volume"
 
-    def measures(self, w: np.ndarray, inverse: np.ndarray | None) -> Measures:
+    @checked
+    def measures(
+        self,
+        w: Annotated[np.ndarray, OPEN, Shape(..., 3, "N")],
+        inverse: Annotated[np.ndarray, OPEN, Shape(..., 2, "N")] | None,
+    ) -> Measures:
         """Measures along the seam.
 
         Parameters
@@ -90,6 +97,9 @@ class Objective:
             case "inverse_volume":
                 if inverse is None:
                     raise InputError("objective", "inverse", None, "inverse volumes (..., 2, N)")
+                if inverse.shape[:-2] != w.shape[:-2]:
+                    expected = f"{(*w.shape[:-2], 2, w.shape[-1])}"
+                    raise InputError("objective", "shape of inverse", inverse.shape, expected)
                 beta = inverse[..., 0, :], inverse[..., 1, :]
             case "harmonic":
                 beta = 1.0 / tight, 1.0 / loose
@@ -100,7 +110,8 @@ class Objective:
                 )
         return Measures(tight, loose, weighted_measure(tight, loose, *beta), *beta)
 
-    def aggregate(self, values: np.ndarray) -> np.ndarray:
+    @checked
+    def aggregate(self, values: Annotated[np.ndarray, OPEN, Shape(..., "N")]) -> np.ndarray:
         """Mean or minimum over the last axis."""
         return values.mean(axis=-1) if self.aggregation == "mean" else values.min(axis=-1)
 
@@ -119,12 +130,22 @@ def cell_grams(cell: Cell, q: np.ndarray, rows: int) -> np.ndarray:
     return np.stack(grams)
 
 
-def inverse_volumes(cell: Cell, q: np.ndarray, space: str, carriers: str) -> np.ndarray:
+@checked
+def inverse_volumes(
+    cell: Cell,
+    q: Annotated[np.ndarray, OPEN, Shape("P", 3, "N", 6)],
+    space: str,
+    carriers: str,
+) -> np.ndarray:
     """Inverse ellipsoid volumes of carriers and welder, (P, 3, N, 6) -> (P, 2, N).
 
     The carriers' two inverse volumes are merged by ``carriers``: their mean, their sum, or the
     inverse volume of the coupled pair.
     """
+    for name, value in (("space", space), ("carriers", carriers)):
+        if value not in CHOICES[name]:
+            expected = f"one of {', '.join(CHOICES[name])}"
+            raise UnknownNameError("inverse_volumes", name, value, expected)
     grams = cell_grams(cell, q, ROWS[space])
     first, second, welder = (1.0 / ellipsoid_volume(A) for A in grams)
     match carriers:

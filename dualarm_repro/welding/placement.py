@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
+from ..arguments import MASK, Shape, checked
 from ..errors import InputError
 from ..scene.clearance import blocks as rows_of
 from .branches import Status, follow
@@ -52,11 +55,15 @@ class Jobs:
         """Mask (P,)."""
         return self.status == Status.FEASIBLE
 
-    def select(self, mask: np.ndarray) -> Jobs:
+    @checked
+    def select(self, mask: Annotated[np.ndarray, MASK, Shape("P")]) -> Jobs:
         """The jobs where the mask (P,) is true."""
+        if len(mask) != len(self.status):
+            raise InputError("Jobs.select", "length of mask", len(mask), str(len(self.status)))
         return Jobs(**{name: values[mask] for name, values in vars(self).items()})
 
 
+@checked
 @dataclass(eq=False)
 class Placement:
     """Fitness of positions C: the aggregated measure, 0 where a constraint is violated.
@@ -82,10 +89,12 @@ class Placement:
         parts = [self.score(self.jobs(block)) for block in blocks(centres)]
         return np.concatenate(parts) if parts else np.empty(0)
 
+    @checked
     def jobs(self, centres: ArrayLike) -> Jobs:
         """Joint paths and constraints at positions (P, 3) [m], cheapest tests first."""
         return solve_jobs(self.cell, self.separation, _positions(centres))
 
+    @checked
     def measures(self, jobs: Jobs) -> Measures:
         """Measures along the seam (P, N) of jobs whose robots all have a path."""
         objective, inverse = self.objective, None
@@ -93,6 +102,7 @@ class Placement:
             inverse = inverse_volumes(self.cell, jobs.q, objective.space, objective.carriers)
         return objective.measures(jobs.w, inverse)
 
+    @checked
     def score(self, jobs: Jobs) -> np.ndarray:
         """Fitness (P,) of jobs."""
         fitness = np.zeros(len(jobs.centres))
@@ -139,7 +149,10 @@ def solve_jobs(cell: Cell, separation: Separation, centres: np.ndarray) -> Jobs:
 
 
 def _positions(centres: ArrayLike) -> np.ndarray:
-    array = np.asarray(centres, dtype=float)
+    try:
+        array = real_array(centres)
+    except (TypeError, ValueError):
+        raise InputError("placement", "centres", centres, "finite positions, (P, 3) [m]") from None
     if array.ndim != 2 or array.shape[1] != 3 or not np.isfinite(array).all():
         raise InputError("placement", "centres", centres, "finite positions, shape (P, 3) [m]")
     return array

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError, UnknownNameError
 from .seam import Seam
 
@@ -19,6 +20,7 @@ POSTURES: dict[str, Callable[[Seam], np.ndarray] | None] = {
 }
 
 
+@checked
 def flat_rotations(seam: Seam, rule: str) -> np.ndarray:
     """R(theta) with R n(theta) = e_z by the smallest rotation, n given by the rule.
 

@@ -7,6 +7,7 @@ from numbers import Integral
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 
 
@@ -42,6 +43,7 @@ class Seam:
         return along / np.linalg.norm(along, axis=1, keepdims=True)
 
 
+@checked
 def saddle_seam(radius_main: float, radius_branch: float, count: int) -> Seam:
     """p(theta) = (R_b cos, R_b sin, sqrt(R_a^2 - R_b^2 sin^2)): main pipe along x, branch along z.
 

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Annotated
 
 import numpy as np
 
+from ..annotation import Shape as Axes
+from ..arguments import OPEN, checked
+from ..errors import InputError
 from ..scene.bodies import Bodies, Body, PlacedArm, collect
 from ..scene.clearance import blocks
 from ..scene.pair_kernels import capsules_capsules, capsules_planes
@@ -33,6 +37,12 @@ EXEMPTIONS = {
 }
 
 
+#: Joint paths and positions of jobs.
+Paths = Annotated[np.ndarray, OPEN, Axes("P", 3, "N", 6)]
+Places = Annotated[np.ndarray, Axes("P", 3)]
+
+
+@checked
 @dataclass(frozen=True, eq=False)
 class Separation:
     """The watched pairs of a cell.
@@ -64,13 +74,22 @@ class Separation:
         """Both owners of every pair, the torch apart from the welder."""
         return [(_owner(a), _owner(b)) for a, b in self.pairs.bodies]
 
-    def cores(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    @checked
+    def cores(self, q: Paths, centres: Places) -> np.ndarray:
         """Cores of all capsules in the world, (P, 3, N, 6) and (P, 3) -> (P N, C, 2, 3) [m]."""
+        if q.shape[2] != self.cell.count:
+            raise InputError("separation", "shape of q", q.shape, f"{self.cell.count} seam points")
         postures = np.moveaxis(q, 1, 2).reshape(-1, *q.shape[1::2])
         turns = np.tile(self.cell.rotations, (len(q), 1, 1))
         return self.posed(postures, turns, np.repeat(centres, self.cell.count, axis=0))
 
-    def posed(self, q: np.ndarray, rotations: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    @checked
+    def posed(
+        self,
+        q: Annotated[np.ndarray, OPEN, Axes("M", 3, 6)],
+        rotations: Annotated[np.ndarray, Axes("M", 3, 3)],
+        centres: Annotated[np.ndarray, Axes("M", 3)],
+    ) -> np.ndarray:
         """Cores (M, C, 2, 3) [m] of single postures: (M, 3, 6), (M, 3, 3) and (M, 3)."""
         cell, start = self.cell, 0
         ends = np.empty((len(q), len(self.bodies.radius), 2, 3))
@@ -81,11 +100,14 @@ class Separation:
             frames = link_frames(arm.chain, base, np.ascontiguousarray(q[:, k]))
             place_cores(frames, links.joint, links.local, ends[:, start:stop])
             start = stop
-        turned = np.einsum("nij,kej->nkei", rotations, cell.pipe_cores)
-        ends[:, start:] = centres[:, np.newaxis, np.newaxis] + turned
+        piece = np.empty((len(q), 1, 3, 4))
+        piece[:, 0, :, :3], piece[:, 0, :, 3] = rotations, centres
+        carried = np.zeros(len(cell.pipe_cores), dtype=int)
+        place_cores(piece, carried, cell.pipe_cores, ends[:, start:])
         return ends
 
-    def distances(self, ends: np.ndarray) -> np.ndarray:
+    @checked
+    def distances(self, ends: Annotated[np.ndarray, OPEN, Axes("M", "C", 2, 3)]) -> np.ndarray:
         """Signed distance of every pair in the order of ``pairs``, (M, C, 2, 3) -> (M, K) [m]."""
         bodies, rows = self.bodies, self.pairs.rows
         distance = np.empty((len(ends), len(self.pairs)))
@@ -94,7 +116,8 @@ class Separation:
         capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
         return distance
 
-    def smallest(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    @checked
+    def smallest(self, q: Paths, centres: Places) -> np.ndarray:
         """Smallest distance of all pairs along the seam, (P, 3, N, 6) and (P, 3) -> (P,) [m]."""
         out, rows = np.empty(len(centres)), self.pairs.rows
         above, height = rows["plane"][:, 0].copy(), self.cell.floor or 0.0
@@ -105,7 +128,8 @@ class Separation:
             )
         return out
 
-    def per_pair(self, q: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    @checked
+    def per_pair(self, q: Paths, centres: Places) -> np.ndarray:
         """Smallest signed distance of every pair along the seam.
 
         Parameters

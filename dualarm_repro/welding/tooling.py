@@ -8,6 +8,7 @@ from math import cos, pi, sin
 import numpy as np
 import pinocchio as pin
 
+from ..arguments import checked
 from ..arms import Arm
 from ..arms.capsules import segment_capsule
 from ..arms.poses import homogeneous
@@ -22,6 +23,7 @@ TORCH_AXES = ("along_bisector", "work_angle_45")
 _DOWN = np.array([0.0, 0.0, -1.0])
 
 
+@checked
 @dataclass(frozen=True)
 class Torch:
     """A torch bent in its middle.

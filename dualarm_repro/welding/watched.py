@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
 from . import genetic
 from .genetic import Generation, GeneticSettings, Search
 from .objective import Measures
@@ -50,6 +51,7 @@ class Trace:
     reason: str = ""
 
 
+@checked
 def watch(
     placement: Placement, box: np.ndarray, settings: GeneticSettings, rng: np.random.Generator
 ) -> Trace:
@@ -65,7 +67,7 @@ def watch(
         asked.append(len(points))
         return watched(points)
 
-    low, high = genetic.checked_box(box).T
+    low, high = np.ascontiguousarray(genetic.checked_box(box).T)
     search = Search(fitness, low, high, settings, rng)
     genetic.initialise(search)
     trace.order.append(genetic.initialise.__name__)

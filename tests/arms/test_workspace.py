@@ -30,8 +30,8 @@ def test_extents_of_a_shell(two_links):
     arm = load_arm(two_links())
     reach = extents(sample_workspace(arm, 200_000, np.random.default_rng(0)))
     assert_allclose(reach.distance, (0.3, 1.1), atol=1e-3)
-    assert_allclose(reach.upper, 1.1, atol=0.02)
-    assert_allclose(reach.lower, -1.1, atol=0.02)
+    assert_allclose(reach.upper, 1.1, atol=0.02)  # few samples come near a pole
+    assert_allclose(reach.lower, -1.1, atol=0.02)  # as above
     assert reach.radius[0] < 0.01
     assert reach.radius[1] == pytest.approx(1.1, abs=1e-3)
 
@@ -65,7 +65,7 @@ def test_volume_of_a_shell_converges_with_the_cell(two_links):
 def test_partial_turn_of_joint_1(q1, q2, share, two_links):
     arm = load_arm(two_links(q1=q1, q2=q2))
     reached = occupancy(arm, 0.02, np.random.default_rng(0), samples=400_000)
-    assert reached.volume().volume == pytest.approx(share * SHELL, rel=0.08)
+    assert reached.volume().volume == pytest.approx(share * SHELL, rel=0.08)  # cells on the skin
     if share < 1:
         inside, beside = (0.9, 0.3, 0.0), (-0.3, 0.9, 0.0)
         points = np.array([inside, np.negative(inside), beside])
@@ -103,10 +103,12 @@ def test_overlap_of_two_balls(two_links):
     arm = load_arm(two_links(l1=0.5, l2=0.5))
     half = pin.SE3(pin.rpy.rpyToMatrix(0.3, 0.2, 0.1), np.array([0.0, 0.0, 0.0]))
     common = overlap((arm, half), (arm, placed(1.0, 0, 0)), seed=3, cell=0.01, points=100_000)
+    # a ball of cells of 0.01 m is up to half a cell too large all round
     assert common.volume.value == pytest.approx(lens(1.0, 1.0), rel=0.04)
     assert common.volume.low < common.volume.value < common.volume.high
     assert common.volume.high - common.volume.low < 0.03 * common.volume.value
     assert common.first_in_second.low < common.first_in_second.value < common.first_in_second.high
+    # two samples of 100 000 points each
     assert common.first_in_second.value == pytest.approx(common.second_in_first.value, abs=0.01)
 
 
@@ -132,6 +134,7 @@ def test_no_overlap_far_apart_and_all_of_it_in_place():
     same = overlap((arm, placed(0, 0, 0)), (arm, pin.SE3.Identity()), **few)
     assert same.first_in_second.value > 0.999
     whole = occupancy(arm, 0.05, np.random.default_rng(0), 300_000).volume().volume
+    # cells on the skin that one of two samples misses
     assert same.volume.value == pytest.approx(whole, rel=0.03)
 
 

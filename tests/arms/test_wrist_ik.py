@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from dualarm_repro.arms import kernels, load_arm
-from dualarm_repro.arms.kernels import Chain
+from dualarm_repro.arms import load_arm
+from dualarm_repro.arms.chain import Chain
+from dualarm_repro.arms.kernels import Kinematics
 from dualarm_repro.arms.wrist_geometry import wrist_geometry
 from dualarm_repro.arms.wrist_ik import inverse_kinematics
 from dualarm_repro.errors import ConfigurationError, InputError, UnsupportedArmError
@@ -97,10 +98,10 @@ def general_arm(lateral, wrist_angles, elbow_turn):
 def test_offset_shoulder_and_skew_wrist(lateral, wrist, elbow, rng):
     chain = general_arm(lateral, wrist, elbow)
     q = rng.uniform(-np.pi, np.pi, (400, 6))
-    T = kernels.poses(chain, q)
+    T = Kinematics(chain).poses(q)
     branches = inverse_kinematics(wrist_geometry("general", chain), T, np.zeros(6), -FREE, FREE)
     found = ~np.isnan(branches).any(axis=2)
-    assert_allclose(kernels.poses(chain, branches[found]), T[np.nonzero(found)[0]], atol=1e-9)
+    assert_allclose(Kinematics(chain).poses(branches[found]), T[np.nonzero(found)[0]], atol=1e-9)
     away = np.nanmin(angle_between(branches, q[:, np.newaxis]), axis=1)
     assert np.quantile(away, 0.98) < 1e-9
     assert away.max() < 1e-5

@@ -90,12 +90,14 @@ def test_template_is_found_planned_with_and_judged(template, methods, tmp_path):
         ("no_such_package:plan", "ModuleNotFoundError"),
         ("os:no_such_name", "AttributeError"),
         ("os:sep", "str"),
+        ("ends_the_process:plan", "SystemExit: 7"),
     ],
 )
 def test_package_that_cannot_be_loaded_stays_on_the_list_and_says_why(
     target, told, methods, tmp_path, monkeypatch
 ):
     distribution(tmp_path, broken=target)
+    (tmp_path / "ends_the_process.py").write_text("import sys\nsys.exit(7)\n")
     monkeypatch.syspath_prepend(str(tmp_path))
     listed = enlist()
     assert told in listed["broken"].description
@@ -118,4 +120,4 @@ def test_no_other_planner_is_found_without_a_package():
 
 
 def test_first_line():
-    assert first_line(lambda problem: None) == "says nothing of itself"
+    assert first_line(lambda problem: None) == "Says nothing of itself"

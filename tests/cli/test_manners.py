@@ -124,6 +124,26 @@ def test_show_of_a_kept_record_imports_no_method(dualarm):
     assert not any(name.startswith("dualarm_repro.papers.xue") for name in modules)
 
 
+def test_list_of_kept_records_imports_no_method(dualarm):
+    chosen = ("list", "--paper", "xue", "--kind", "equation")
+    assert dualarm(*chosen)[0] == 0  # so that they are kept
+    modules = imported(*chosen)
+    assert not {name.partition(".")[0] for name in modules} & HEAVY
+    assert not any(name.startswith("dualarm_repro.papers.xue") for name in modules)
+
+
+def test_plan_imports_nothing_that_it_does_not_use(tmp_path):
+    """No figures, no web server of the viewer, no other planner and no solver of one."""
+    tasks = str(ROOT / "data" / "scenes" / "example_tasks.yaml")
+    modules = imported("plan", tasks, "--method", "apf-bidirectional", "--out", str(tmp_path))
+    assert (tmp_path / "example_tasks.html").is_file()
+    found = {name.partition(".")[0] for name in modules}
+    unused = {"cvxpy", "jinja2", "matplotlib", "meshcat", "ompl", "qpsolvers", "sympy", "toppra"}
+    assert not found & (unused | {"IPython", "rich", "tornado", "zmq"})
+    rooms = {name.split(".")[1] for name in modules if name.startswith("dualarm_repro.")}
+    assert not rooms & {"arena", "baselines", "control", "papers", "welding"}
+
+
 def on_terminal(command, env=None, streams=(1, 2)):
     """Output of a command whose chosen streams are a terminal of 100 columns."""
     ours, theirs = pty.openpty()

@@ -63,6 +63,22 @@ def test_plan_by_a_baseline_and_time_it(dualarm, scene, tmp_path):
     assert dualarm("check", scene, out / "free_timed.csv")[0] == 0
 
 
+def test_path_that_does_not_begin_at_the_start_is_not_usable(dualarm, scene, tmp_path):
+    """It ends at the goal, so that only its first row is wrong."""
+    path = tmp_path / "path.csv"
+    rows = {f"{arm}.q{j + 1}": [0.0, 0.0] for arm in ("left", "right") for j in range(6)}
+    rows["left.q1"], rows["right.q1"] = [1.2, 1.7453], [1.0472, 1.7453]
+    pd.DataFrame(rows).to_csv(path, index=False)
+    code, out, _ = dualarm("check", scene, path)
+    assert code == 3
+    assert "left: 0.1528 (rad, or m if it slides) from its start, at its goal" in out
+    assert "right: at its start, at its goal" in out
+    assert "outcome: not from the start\n" in out
+    code, out, _ = dualarm("time", scene, path, "--out", tmp_path / "out")
+    assert (code, "does not begin at the start" in out) == (3, True)
+    assert (tmp_path / "out" / "free_timed.csv").read_text().startswith("# DO NOT RUN: not from")
+
+
 def test_time_of_a_motion_in_contact_says_so(dualarm, tmp_path):
     """Straight through each other: exit code 3, files marked."""
     turn = 'start: ["60 deg", "60 deg", -0.5, 0, 0, 0], goal: ["-60 deg", "60 deg", -0.5, 0, 0, 0]'

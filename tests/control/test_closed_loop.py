@@ -39,6 +39,7 @@ def test_without_inequalities_the_minimiser_is_the_pseudo_inverse(crossing):
 
 def test_error_falls_with_the_step_and_the_feedback(crossing):
     coarse, fine = (run(crossing, ControllerSettings(), dt=dt).largest_error for dt in (2e-3, 1e-3))
+    # first order in the step; the second one still weighs
     assert fine == pytest.approx(coarse / 2, rel=0.1)
     assert run(crossing, ControllerSettings(feedback=0.0)).largest_error > 10 * fine
 

@@ -36,6 +36,7 @@ def test_slow_work_is_the_change_of_potential_energy(crossing, motion):
     paid = effort(crossing.system, slow)
     assert paid.driven >= paid.work / 2 - np.ptp(heights)
     assert paid.work >= np.abs(np.diff(heights)).sum() * 0.99
+    # kinetic energy of a slow motion, which the potential leaves out [J]
     assert 2 * paid.driven - paid.work == pytest.approx(heights[-1] - heights[0], abs=0.1)
 
 

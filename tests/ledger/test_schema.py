@@ -79,4 +79,5 @@ def test_json_schema_accepts_the_paper_files(registry):
     schema = json.loads(json.dumps(json_schema()))
     Draft202012Validator.check_schema(schema)
     for name in registry.papers:
-        Draft202012Validator(schema).validate(read_yaml(data_path("papers", f"{name}.yaml")))
+        content = read_yaml(data_path("papers", f"{name}.yaml"))
+        assert list(Draft202012Validator(schema).iter_errors(content)) == [], name

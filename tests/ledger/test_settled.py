@@ -45,9 +45,11 @@ def test_share_flip_and_influence(make):
     assert found.verdict == "reproduced-under-assumption"
     robust = found.robustness
     assert robust["samples"] == 64
+    # 64 draws that fill the range evenly: within three of them
     assert robust["holds"] == robust["meets_print"]["share"] == pytest.approx(SHARE, abs=0.05)
     assert robust["interval"][0] < SHARE < robust["interval"][1]
     assert robust["flip"]["assumption"] == "width"
+    # the nearest of 64 draws beyond the edge: their spacing
     assert robust["flip"]["value"] == pytest.approx(EDGE, abs=0.05)
     assert robust["flip"]["verdict"] == "not-reproduced"
     assert list(robust["influence"]) == ["width"]
@@ -79,6 +81,7 @@ def test_not_found_tells_the_nearest_miss(make):
     assert found.robustness["meets_print"]["share"] == 0.0
     assert not found.search["directed"]
     assert 0.4 < found.search["nearest"]["miss"] < 0.6
+    # the draw nearest to the end of the range, not the end itself
     assert found.search["nearest"]["values"]["width"] == pytest.approx(4.0, abs=0.2)
 
 
@@ -132,6 +135,7 @@ def test_what_cannot_be_computed_does_not_meet_print(make):
     robust = settled(make(compute=refusing)).robustness
     assert robust["holds"] < 0.5
     assert robust["flip"]["verdict"] == NOT_COMPUTABLE
+    # the nearest of the draws beyond the edge: their spacing
     assert robust["flip"]["value"] == pytest.approx(1.2, abs=0.05)
     assert robust["not_computable"] > 0
 
@@ -185,6 +189,7 @@ def test_drawing_anew(make):
     toy = make()
     few = robustness_of_draws(toy, "toy.claim_area", 16)
     assert few["samples"] == 16
+    # 16 draws: within three of them
     assert few["holds"] == pytest.approx(SHARE, abs=0.2)
     assert robustness_of_draws(toy, "toy.claim_count", 16) is None
     with pytest.raises(InputError, match="samples"):

@@ -30,6 +30,7 @@ def test_influence_finds_the_assumption_that_decides():
     rng = np.random.default_rng(1)
     decides, idle = rng.uniform(size=256), rng.uniform(size=256)
     met = decides > 0.5
+    # the estimate corrects for the number of bins and stays below 1
     assert first_order(decides.tolist(), met.tolist(), 0) == pytest.approx(1.0, abs=0.05)
     assert first_order(idle.tolist(), met.tolist(), 0) is None
 
@@ -37,5 +38,6 @@ def test_influence_finds_the_assumption_that_decides():
 def test_influence_of_choices_and_of_what_never_changes():
     choices = ["a", "b"] * 32
     met = [choice == "a" for choice in choices]
+    # the estimate corrects for the number of choices and stays below 1
     assert first_order(choices, met, 0) == pytest.approx(1.0, abs=0.05)
     assert first_order(choices, [True] * 64, 0) is None

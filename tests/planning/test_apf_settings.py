@@ -26,7 +26,11 @@ TRAP = Trap(rule="block_means", steps=5, threshold=1e-3)
     [
         (lambda: Attraction(gain=0.0), "gain", "greater than 0"),
         (lambda: Attraction(gain=float("nan")), "gain", "finite"),
-        (lambda: Attraction(gain=1.0, joint_wieght=1.0), "joint_wieght", "no field of that name"),
+        (
+            lambda: Attraction(gain=1.0, joint_wieght=1.0),
+            "joint_wieght",
+            "one of the fields joint_weight, ",
+        ),
         (
             lambda: Attraction(gain=1.0, position_weight=0.0),
             "combination",

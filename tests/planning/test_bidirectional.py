@@ -10,6 +10,7 @@ from dualarm_repro.planning.descent.termination import StopReason
 from dualarm_repro.planning.field.hull_obstacle import JointCircles, circles_on, hull_track
 from dualarm_repro.planning.field.obstacles import obstacles_of
 from dualarm_repro.planning.search.bidirectional import plan_bidirectional
+from dualarm_repro.planning.search.bidirectional_batch import plan_bidirectional_batch
 from dualarm_repro.planning.search.bidirectional_compiled import (
     plan_bidirectional_compiled,
     search_compiled,
@@ -171,3 +172,32 @@ def test_bad_configurations():
     limited = settings(enforce_limits=True)
     with pytest.raises(ConfigurationError, match="limits"):
         plan_bidirectional_compiled(placed_arm(), START, GOAL + 9.0, obstacles(), limited)
+
+
+@pytest.mark.parametrize("changes", [{}, ONE_SIDED, {"ending": {"search_limit": 3}}])
+@pytest.mark.parametrize("jobs", [1, 3])
+def test_batch_gives_the_plans_of_single_searches(changes, jobs):
+    """To the last bit, for any number of threads, around a hull that moves too."""
+    rng = np.random.default_rng(11)
+    goals = GOAL + rng.uniform(-0.3, 0.3, (40, len(GOAL)))
+    starts = START + rng.uniform(-0.1, 0.1, goals.shape)
+    given = (obstacles(None), settings(**changes), moving_hulls())
+    found = plan_bidirectional_batch(placed_arm(None), starts, goals, *given, jobs)
+    assert len(found) == 40
+    for one, start, goal in zip(found, starts, goals, strict=True):
+        assert_equal_plans(
+            one, plan_bidirectional_compiled(placed_arm(None), start, goal, *given), 0.0
+        )
+        np.testing.assert_array_equal(one.problem.goal, goal)
+
+
+def test_batch_refuses_what_does_not_fit():
+    given = (obstacles(None), settings())
+    arm = placed_arm(None)
+    with pytest.raises(ConfigurationError, match="goals"):
+        plan_bidirectional_batch(arm, [START, START], [GOAL], *given)
+    with pytest.raises(InputError, match="jobs"):
+        plan_bidirectional_batch(arm, [START], [GOAL], *given, jobs=0)
+    limited = settings(enforce_limits=True)
+    with pytest.raises(ConfigurationError, match="goal"):
+        plan_bidirectional_batch(arm, [START] * 2, [GOAL, GOAL + 99.0], given[0], limited)

@@ -21,6 +21,7 @@ def test_straight_line_hits_the_sphere_and_groups_are_told_apart():
     assert check.smallest == check.clearance["obstacles"]
     assert not check.free
     fine = distances(scene, np.linspace(START, GOAL, 2001)).min()
+    # the check samples the line more coarsely [m]
     assert check.smallest == pytest.approx(fine, abs=2e-3)
 
 

@@ -14,7 +14,8 @@ LINE = np.column_stack([np.linspace(-0.1, 0.1, 101), np.full(101, 0.2), np.full(
 
 def test_between_two_capsules_the_direction_jumps_by_the_angle_to_their_axes():
     jump = 2 * np.arctan2(0.2, 0.2)
-    assert largest_turn(to_capsules(CORES, RADII), LINE, 0.02) == pytest.approx(jump, abs=0.02)
+    # the samples next to the crease lie half a step beside it
+    assert largest_turn(to_capsules(CORES, RADII), LINE, 0.02) == pytest.approx(jump, abs=0.01)
 
 
 def test_around_one_capsule_it_does_not():

@@ -48,7 +48,10 @@ def test_none_switches_a_block_off():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ("settings: {control_point: capsules}", r"settings: APFSettings.control_point.*no field"),
+        (
+            "settings: {control_point: capsules}",
+            r"APFSettings.control_point.*fields control_points",
+        ),
         ("settings: {repulsion: {influence: -1}}", r"settings: Repulsion.influence = -1"),
         ("settings: {repulsion: {gain: .nan}}", r"settings: Repulsion.gain = nan"),
         ("settings: {update: {rule: fixed}}", r"settings: Update.rule = 'fixed'"),

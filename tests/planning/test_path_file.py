@@ -49,6 +49,15 @@ BAD = {
     "infinite": (("left.csv", HEAD, "0,0,0,0,0,inf"), r"q6, row 1"),
     "index falls": (("left.csv", "step," + HEAD, "1,0,0,0,0,0,0", "0,0,0,0,0,0,0"), "increasing"),
     "empty": (("left.csv", HEAD), r"rows = 0"),
+    "huge": (
+        ("left.csv", HEAD, "0,0,0,0,0,0", "0,1e5,0,0,0,0"),
+        r"q2, row 2 = 100000.0: expected a",
+    ),
+    "degrees": (("left.csv", HEAD, "0,0,0,0,90,0"), r"q5, row 1 = 90"),
+    "too far": (
+        ("left.csv", HEAD, *["2,0,0,0,0,0", "-2,0,0,0,0,0"] * 2000),
+        r"way of left = '1.6e\+04 rad'",
+    ),
     "nothing": (("left.csv", ""), r"content = "),
 }
 

@@ -43,6 +43,7 @@ def gradient(function, q, step=1e-6):
 def test_attraction_is_the_negative_gradient(measure, q):
     terms = (GOAL, 1000.0, 0.4, measure)
     force = conic_force(q, *terms)
+    # forces are up to 980; differences may straddle the kink at the threshold
     assert force == pytest.approx(-gradient(lambda x: conic_potential(x, *terms), q), abs=1e-2)
     bound = 400.0 * (1 if measure is Threshold.NORM else np.sqrt(6))
     assert np.linalg.norm(force) <= bound * (1 + 1e-12)

@@ -29,6 +29,7 @@ def test_roughness_falls_as_smoothing_grows(plan):
     straight = np.linspace(START, GOAL, 20)
     assert roughness(straight) == pytest.approx(0.0, abs=1e-9)
     x = np.arange(9.0)[:, None]
+    # nine points: the ends of the integral lie half a step inside
     assert roughness(x**2) == pytest.approx(4.0 * 8.0, rel=0.2)
 
 

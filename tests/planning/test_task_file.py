@@ -186,7 +186,7 @@ def test_unknown_method():
         ("start: [0, 0, 0, 0, 0, 0], ", "", "tasks.left.start", "a joint vector or a position"),
         ("left:", "middle:", "tasks", "one of left, right"),
         ("gain: 1.0,", "gain: -1.0,", "settings: Attraction.gain", "greater than 0"),
-        ("step_limit: 2000", "steps: 2000", "settings: Termination.steps", "no field"),
+        ("step_limit: 2000", "steps: 2000", "settings: Termination.steps", "fields step_limit"),
         ("scene: cell.yaml", "scene: none.yaml", "file", "a readable YAML file"),
         ("tool: radial", "tool: sideways", "tasks.left.goal", "radial"),
     ],
@@ -226,7 +226,8 @@ def test_both_arms_are_played_to_their_ends(write, name):
     result = plan_file(write(TASKS + SEARCH_SETTINGS), name)
     left, right = result.plans.values()
     assert left.reached
-    assert left.path[-1] == pytest.approx(left.goal, abs=0.07)
+    # within the ending tolerance of the settings
+    assert left.path[-1] == pytest.approx(left.goal, abs=0.06)
     assert len(left.path) == len(right.path)
     steps = np.abs(np.diff(np.hstack([left.path, right.path]), axis=0)).max()
     assert steps < 0.15

@@ -75,6 +75,7 @@ def test_exit_of_the_path_waits_for_what_moves(tmp_path):
     paths = {name: JointPath(np.zeros((2, 6))) for name in ("left", "right")}
     judged = truth(scene, paths)
     assert judged.verdict is Verdict.COLLISION
+    # contact begins when the ball, not its centre, arrives
     assert judged.index == pytest.approx(50.0, abs=2.0)
     assert "ball" in judged.pair
 

@@ -133,6 +133,7 @@ def test_separations_of_the_optimum(pan, listed, declared, optimum):
     for pair, value in theirs.items():
         assert found[pair] == pytest.approx(value, abs=1e-9), pair
     margin = min((q - fine.arm.lower).min(), (fine.arm.upper - q).min())
+    # this seam is denser than that of the item: the margin is met between its points [deg]
     assert np.degrees(margin) == pytest.approx(
         pan.obtained("pan.claim_constraints")["joint_margin"], abs=0.5
     )

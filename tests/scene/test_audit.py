@@ -68,6 +68,7 @@ def test_a_capsule_of_the_radius_of_a_rod_contains_it(tmp_path):
     text = f"<link name='l0'/><link name='l1'>{rod}</link>{JOINT.format(0, 'revolute', 1, 0.4)}"
     path.write_text(f"<robot name='r'>{text}</robot>", encoding="utf-8")
     assert outside(load_arm(path)) <= 1e-12
+    # the hull of a round rod is a prism around it
     assert excess(load_arm(path)) == pytest.approx(1.0 + 4.0 / 3.0 * 0.05 / 0.6, rel=0.03)
 
 

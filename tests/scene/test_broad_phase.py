@@ -64,6 +64,7 @@ def test_the_smallest_distance_stays_the_same(seed):
     assert distances(near, path).min() == distances(scene, path).min()
     whole = certified_minimum(scene, path, index, 5e-3)
     part = certified_minimum(near, path, index, 5e-3)
+    # the tolerance that both certificates were asked for [m]
     assert part.upper == pytest.approx(whole.upper, abs=5e-3)
     assert part.lower <= whole.upper + 1e-12
 

@@ -53,6 +53,7 @@ def test_it_finds_a_minimum_between_the_samples():
     assert clearance(scene, path).minimum.min() > 0.05
     bracket = certified_minimum(scene, path, tolerance=1e-4)
     assert bracket.upper < -0.02
+    # in contact from before the middle until after it
     assert bracket.time == pytest.approx(0.5, abs=0.2)
     check(scene, path, bracket, 1e-4)
 

@@ -150,4 +150,5 @@ def test_a_step_against_the_gradient_brings_two_arms_closer(scene):
     for k in np.flatnonzero(np.abs(gradient).max(axis=1) > 1e-2):
         moved = distances(scene, q - 1e-4 * gradient[k])[k]
         expected = -1e-4 * gradient[k] @ gradient[k]
+        # the second order of a step of 1e-4
         assert moved - found.distance[k] == pytest.approx(expected, rel=0.05)

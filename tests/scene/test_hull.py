@@ -79,5 +79,5 @@ def test_circles_lie_in_their_planes():
 
 
 def test_two_points_are_no_circle():
-    with pytest.raises(InputError, match="count = 2: expected at least 3"):
+    with pytest.raises(InputError, match="count = 2: expected a whole number, at least 3"):
         circle_points([[0, 0, 0]], [[0, 0, 1]], [1], 2)

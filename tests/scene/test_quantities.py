@@ -9,7 +9,7 @@ def test_good_values_come_back_as_read_only_floats():
     v = vector3("here", "v", [1, 2, 3])
     assert v.dtype == float
     assert not v.flags.writeable
-    assert positive("here", "r", "0.5") == 0.5
+    assert positive("here", "r", np.float32(0.5)) == 0.5
     np.testing.assert_allclose(unit3("here", "n", (0, 3, 4)), (0, 0.6, 0.8))
     np.testing.assert_array_equal(rotation3("here", "R", np.eye(3)), np.eye(3))
 

@@ -59,7 +59,7 @@ def test_bad_time(time):
         ({"obstacles": {"a/b": BALL}}, "Scene: name = 'a/b'"),
         ({"obstacles": {"": BALL}}, "Scene: name = ''"),
         ({"obstacles": {"floor": BALL}, "floor": 0.0}, "Scene: name = 'floor'"),
-        ({"floor": np.nan}, "HalfSpace: offset = nan"),
+        ({"floor": np.nan}, "Scene: floor = nan"),
         (
             {"obstacles": {"ball": "round"}},
             "obstacle ball/0: shape = 'r': expected Sphere, Capsule",

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from dualarm_repro.arms import load_arm
-from dualarm_repro.errors import DataFileError
+from dualarm_repro.errors import DataFileError, InputError
 from dualarm_repro.scene import PlacedArm, Scene, distances, facing, load_scene, window_frame
 from dualarm_repro.scene.scene_file import json_schema
 from dualarm_repro.scene.shapes import Box, Capsule, HalfSpace, Sphere
@@ -208,3 +208,44 @@ def test_schema_accepts_what_the_reader_accepts():
     jsonschema.validate(yaml.safe_load(FULL), schema)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({"arms": {"a": {"robot": "irb120", "zyx": [0, 0, 0]}}}, schema)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ((None,), "arms = None"),
+        (("x",), "arms"),
+        (([1],), r"arms\[0\] = 1: expected a PlacedArm"),
+        (([], 3), "obstacles = 3"),
+        (([], {}, []), r"moving = \[\]"),
+        (([], {}, {"x": 1}), r"moving\['x'\] = 1: expected a MovingShape"),
+        (([], {}, {}, "x"), "floor = 'x'"),
+        (([], {}, {}, None, [1]), r"exempt\[0\] = 1: expected a tuple"),
+        (([], {}, {}, None, (), "x"), "self_collision = 'x'"),
+        (([], {3: 1}), "name = 3"),
+    ],
+)
+def test_arguments_of_a_scene_are_named(arguments, told):
+    with pytest.raises(InputError, match=told):
+        Scene(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("arm: {}", "arm = 'an empty mapping': expected one of the fields arms, obstacles"),
+        (
+            "arms: {a: {robot: irb120, strat: [0]}}",
+            r"arms\.a\.strat.*one of the fields start, robot",
+        ),
+        (
+            "arms: {a: {robot: irb120}}\nobstacles: {x: {kind: sphere, centre: [0, 0, 0]}}",
+            r"x\.sphere\.centre.*one of the fields center, kind, radius",
+        ),
+    ],
+)
+def test_unknown_field_is_told_the_known_ones_most_similar_first(tmp_path, text, told):
+    path = tmp_path / "scene.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(DataFileError, match=told):
+        load_scene(path)

@@ -14,9 +14,9 @@ def test_scene_and_truth_agree():
     plan = plan_file(data_path("scenes", "example_tasks.yaml"), "apf-bidirectional")
     made = plan_scene(plan, "Two arms and a ball.")
     nearest, found = made.contents.nearest, truth(plan.scene, plan.paths)
-    # key frames are some of the motion, so they can only be farther apart
+    # key frames are some of the motion: they can only be farther apart, by what moves between two
     assert found.lower <= nearest.distance.min()
-    assert nearest.distance.min() == pytest.approx(found.upper, abs=2e-3)
+    assert nearest.distance.min() == pytest.approx(found.upper, abs=2e-3)  # between key frames
     assert made.contents.floor == plan.scene.floor == 0.0
     assert "ball" in {part.body for part in made.contents.parts}
 

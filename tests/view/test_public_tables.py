@@ -13,11 +13,14 @@ ROW = {
     "flange": "tool0", "exact": True, "shapes": 8.0, "capsules": 57.0, "contained": True,
     "excess": 1.583, "home_clear": True, "home_flagged": False, "clear": 200.0,
     "false_alarms": 3.0, "missed": 0.0, "excluded": 4.0, "remedy": False, "pair_reached": True,
+    "pair_reason": "found",
     "pair_lower": 0.0123, "pair_meshes": 0.0456, "pair_apart": 0.8,
 }  # fmt: skip
 OTHERS = [
-    {**ROW, "file": "a/urdf/two.urdf", "home_flagged": True, "pair_reached": False},
-    {**ROW, "file": "b/three.urdf", "home_clear": False, "pair_reached": None, "pair_lower": None},
+    {**ROW, "file": "a/urdf/two.urdf", "home_flagged": True, "pair_reached": False,
+     "pair_reason": "none found"},
+    {**ROW, "file": "b/three.urdf", "home_clear": False, "pair_reached": None,
+     "pair_reason": "touches itself", "pair_lower": None},
     {
         **dict.fromkeys(ROW),
         "file": "b/four.urdf", "loads": False, "remedy": True,
@@ -47,9 +50,9 @@ def test_loading():
 
 def test_contact():
     one, two, three = cells(public_tables.contact_page())
-    assert one == ["one", "accepted", "200", "1.5", "0", "4", "found", "12.3", "45.6"]
+    assert one == ["one", "accepted", "200", "1.5", "0", "4", "found", "0.8", "12.3", "45.6"]
     assert (two[1], two[6]) == ("refused", "none found")
-    assert (three[1], three[6], three[7]) == ("touches", "no clear posture", "")
+    assert (three[1], three[6], three[7]) == ("touches", "touches itself", "0.8")
 
 
 def test_refused():

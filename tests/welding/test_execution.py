@@ -36,6 +36,7 @@ def test_rates_are_those_of_differences(job):
     assert arc.sum() == pytest.approx(seam_rate(cell).mean() * 2 * np.pi, rel=1e-4)
     turned = np.diff(np.concatenate([dense.q[0], dense.q[0][:, :1]], axis=1), axis=1)
     differences = abs(turned / arc[:, np.newaxis]).max(axis=1)
+    # differences over half a degree of the seam against rates at points ten degrees apart
     assert np.allclose(differences, abs(joint_rates(cell, jobs)).max(axis=1), rtol=0.02, atol=0.02)
 
 
@@ -58,7 +59,7 @@ def test_timing_keeps_speed_and_acceleration(job):
         assert (abs(weld.speed) <= 1.01 * speed_limits(cell)).all()
         assert abs(weld.acceleration).max() <= 5.0 * 1.05  # kept at the points of a grid
         assert abs(weld.speed[[0, -1]]).max() < 1e-6
-    assert slow.time[-1] == pytest.approx(length / 0.01, rel=0.01)
+    assert slow.time[-1] == pytest.approx(length / 0.01, rel=0.01)  # it starts and ends at rest
     assert np.allclose(slow.q[0], jobs.q[0, :, 0])
     assert fast.time[-1] < 0.2 * slow.time[-1]
     with pytest.raises(InputError, match="speed"):
@@ -80,6 +81,7 @@ def test_angles_of_the_torch():
         cell = make_cell(axis=axis)
         angles = torch_angles(cell, Placement(cell, Objective()).jobs(CENTRE), seam)
         for part in angles:
+            # the seam is given by chords [deg]
             assert np.degrees(abs(part).max()) == pytest.approx(largest, abs=0.2)
     # where the welder leans straight along the seam there is travel and no work angle
     both = np.cos(angles.work) * np.cos(angles.travel)

@@ -10,7 +10,7 @@ in contact is never left out, and its capsules overlap whenever the contents do.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ import pinocchio as pin
 from ..capsules import geometry_of
 from ..exclusions import Evidence, Exclusion, shape_of
 from .parts import Part
+from .postures import contacts, home_pose, postures, usual_range
 from .triangles import convex
 
 SAMPLES = 2000  # postures of the whole arm
@@ -30,11 +31,10 @@ WORTH_IT = 5  # of them, in which parts have to overlap for it to be asked wheth
 FLAGGED = 20  # postures in which they have to overlap before "never" counts
 MOST = 0.5  # share of postures in which a pair touches that touches at the home pose for good
 NEAR = 5e-4  # contents are near each other at this distance [m]
-NEIGHBOURS = 40  # postures in which adjacent shapes are looked at
 
 
 def judge(model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Part]) -> list[Exclusion]:
-    """Pairs of shapes and of capsules that are left out.
+    """Pairs of shapes two or more joints apart, and of capsules of them, that are left out.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def judge(model: pin.Model, solids: pin.GeometryModel, parts: Sequence[Part]) ->
     parts
         The capsules around them, with what each contains.
     """
-    found = _adjacent(model, solids)
+    found = list[Exclusion]()
     pairs = watched_pairs(solids)
     if not pairs:
         return found
@@ -207,68 +207,8 @@ def _geometry(shapes: Sequence[pin.GeometryObject]) -> pin.GeometryModel:
     return found
 
 
-def _adjacent(model: pin.Model, solids: pin.GeometryModel) -> list[Exclusion]:
-    """Shapes of neighbouring joints that touch in some posture."""
-    pairs = _pairs(solids, lambda apart: apart == 1)
-    if not pairs:
-        return []
-    counts = contacts(model, solids, pairs, postures(model, NEIGHBOURS)).sum(axis=0)
-    names = [shape.name for shape in solids.geometryObjects]
-    return [
-        Exclusion(names[i], names[j], Evidence.ADJACENT, int(count), NEIGHBOURS, NEIGHBOURS)
-        for (i, j), count in zip(pairs, counts, strict=True)
-        if count
-    ]
-
-
 def watched_pairs(solids: pin.GeometryModel) -> list[tuple[int, int]]:
     """Indices of shapes whose joints are two or more apart."""
-    return _pairs(solids, lambda apart: apart > 1)
-
-
-def _pairs(solids: pin.GeometryModel, wanted: Callable[[int], bool]) -> list[tuple[int, int]]:
     joints = [shape.parentJoint for shape in solids.geometryObjects]
     both = combinations(range(len(joints)), 2)
-    return [(i, j) for i, j in both if wanted(abs(joints[i] - joints[j]))]
-
-
-def usual_range(model: pin.Model) -> tuple[np.ndarray, np.ndarray]:
-    """Limits of the joints, a turn about 0 where there are none."""
-    lower, upper = model.lowerPositionLimit, model.upperPositionLimit
-    return np.where(np.isinf(lower), -np.pi, lower), np.where(np.isinf(upper), np.pi, upper)
-
-
-def postures(model: pin.Model, count: int, seed: int = 0) -> np.ndarray:
-    """Postures (N, nq) drawn uniformly within the limits."""
-    lower, upper = usual_range(model)
-    return lower + np.random.default_rng(seed).random((count, model.nq)) * (upper - lower)
-
-
-def home_pose(model: pin.Model) -> np.ndarray:
-    """All joints zero, or as near to it as their limits allow."""
-    found: np.ndarray = np.clip(np.zeros(model.nq), *usual_range(model))
-    return found
-
-
-def contacts(
-    model: pin.Model,
-    shapes: pin.GeometryModel,
-    pairs: Sequence[tuple[int, int]],
-    q: np.ndarray,
-    near: float = 0.0,
-) -> np.ndarray:
-    """Whether shapes come nearer than ``near`` [m], for every posture (N, nq) and pair: (N, P)."""
-    shapes.removeAllCollisionPairs()
-    for i, j in pairs:
-        shapes.addCollisionPair(pin.CollisionPair(i, j))
-    data, geometry = model.createData(), shapes.createData()
-    results = geometry.collisionResults
-    for request in geometry.collisionRequests:
-        request.security_margin = near
-    found = np.zeros((len(q), len(shapes.collisionPairs)), dtype=bool)
-    for row, posture in zip(found, q, strict=True):
-        if pin.computeCollisions(model, data, shapes, geometry, posture, False):
-            for k in range(len(row)):
-                row[k] = results[k].isCollision()
-    shapes.removeAllCollisionPairs()
-    return found
+    return [(i, j) for i, j in both if abs(joints[i] - joints[j]) > 1]

@@ -17,18 +17,23 @@ from ...cache_folder import cache_folder
 from ...errors import DataFileError, DualArmError
 from ...sources import graph
 from ..capsules import LinkCapsule, geometry_of
-from ..exclusions import Evidence, Exclusion
+from ..exclusions import Evidence, Exclusion, Neighbours
 from .evidence import judge
+from .neighbours import adjacent_pairs, neighbours
 from .parts import parts_of
 
 if TYPE_CHECKING:
     from ..urdf import URDF
 
 
-class FittedLinks:
-    """Several capsules around each shape of a URDF, and the pairs of shapes that say nothing.
+_KEYS = {"capsules", "hulls", "exclusions", "neighbours"}
 
-    Both are kept in the cache folder under a hash of the file, its meshes, the locked joints and
+
+class FittedLinks:
+    """Several capsules around each shape of a URDF, the pairs of shapes that say nothing, and the
+    neighbours that do.
+
+    All are kept in the cache folder under a hash of the file, its meshes, the locked joints and
     the code that computes them.
     """
 
@@ -54,6 +59,10 @@ class FittedLinks:
             for first, second, evidence, *counts in self._found["exclusions"]
         )
 
+    def neighbours(self) -> tuple[Neighbours, ...]:
+        """Pairs of adjacent shapes that are watched."""
+        return tuple(Neighbours(*one) for one in self._found["neighbours"])
+
     @cached_property
     def _found(self) -> dict[str, Any]:
         path = self._path()
@@ -72,7 +81,8 @@ class FittedLinks:
         return found
 
     def _compute(self, solids: pin.GeometryModel) -> dict[str, Any]:
-        parts = parts_of(solids)
+        parts, model = parts_of(solids), self._urdf.model
+        watched, silent = neighbours(model, solids, adjacent_pairs(solids))
         return {
             "capsules": [
                 [c.name, c.joint, c.start.tolist(), c.end.tolist(), c.radius]
@@ -83,8 +93,9 @@ class FittedLinks:
             },
             "exclusions": [
                 [one.first, one.second, one.evidence.value, one.touching, one.sampled, one.flagged]
-                for one in judge(self._urdf.model, solids, parts)
+                for one in [*silent, *judge(model, solids, parts)]
             ],
+            "neighbours": [[w.first, w.second, w.touching, w.sampled] for w in watched],
         }
 
     def _path(self) -> Path | None:
@@ -102,7 +113,7 @@ def _read(path: Path) -> dict[str, Any] | None:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    whole = isinstance(found, dict) and {"capsules", "hulls", "exclusions"} <= found.keys()
+    whole = isinstance(found, dict) and _KEYS <= found.keys()
     return found if whole else None
 
 

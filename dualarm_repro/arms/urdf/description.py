@@ -22,6 +22,8 @@ from .joints import geared, locked_values, read_joints
 from .meshes import mesh_files, refuse_broken_mesh
 from .parser import bordered
 from .shapes import check_count, check_shapes, for_the_parser, with_capsules
+from .stand_ins import represented
+from .tree import check_tree
 
 _REMEDY = "flange= chooses another chain, lock= fixes a joint"
 
@@ -51,14 +53,16 @@ class URDF:
     types : tuple of JointType
         How each of them moves.
     remarks : list of str
-        Links that are seen but have no collision shape, and what the parser had to say about a file
-        that it could read.
+        Links without a collision shape for which visual ones stand in (:mod:`.stand_ins`), links
+        that are seen but not represented, and what the parser had to say about a file that it
+        could read.
 
     Raises
     ------
     DataFileError
-        Missing or broken file, a non-finite number, limits in the wrong order, no joint, a joint
-        of the chain that is neither revolute nor prismatic, a collision shape that is not known.
+        Missing or broken file, links that form no tree, a non-finite number, limits in the wrong
+        order, no joint, a joint of the chain that is neither revolute nor prismatic, a collision
+        shape that is not known.
     UnknownNameError
         No such flange frame or joint.
     """
@@ -73,7 +77,9 @@ class URDF:
     ) -> None:
         self.path, self.shapes, self._packages = Path(path), shapes, packages
         self._root = read(self.path)
+        check_tree(self.path, self._root)
         joints = read_joints(self.path, self._root)
+        self.remarks = represented(self.path, self._root, shapes, packages)
         check_shapes(self.path, self._root, shapes)
         self._aliases = aliases(self._root)
         kinematic = renamed(_kinematic(self._root), self._aliases)
@@ -82,13 +88,8 @@ class URDF:
             self._full = full = pin.buildModelFromXML(xml)
         links = children(self._root, "link")
         self.flange = default_flange(self._root, joints) if flange is None else flange
-        if self.flange not in links:
+        if not isinstance(self.flange, str) or self.flange not in links:
             raise UnknownNameError(self.path, "flange", self.flange, f"one of {', '.join(links)}")
-        self.remarks = [
-            f"link {name} has a visual but no collision shape"
-            for name, link in links.items()
-            if link.find("visual") is not None and link.find("collision") is None
-        ]
         self.remarks += said
         names = list(full.names)
         limits = {name: self._limits_of(names.index(name)) for name in joints.types}

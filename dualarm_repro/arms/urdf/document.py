@@ -7,7 +7,12 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, ParseError, TreeBuilder, XMLParser
 
 from ...errors import DataFileError
+from ...input_files import contents
 
+#: Largest file [bytes].
+LARGEST_FILE = 50_000_000
+#: Deepest nesting of elements; what copies and writes them goes down by recursion.
+DEEPEST = 100
 _XACRO = "{http://www.ros.org/wiki/xacro}"
 
 
@@ -15,7 +20,25 @@ class _Declared(ValueError):
     """The text declares a document type, with which entities can grow without bound."""
 
 
+class _Deep(ValueError):
+    """Elements are nested deeper than in any robot."""
+
+
 class _Builder(TreeBuilder):
+    _depth = 0
+
+    def start(self, tag: str, attrs: dict[str, str]) -> Element:
+        """Count the nesting."""
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise _Deep(tag)
+        return super().start(tag, attrs)
+
+    def end(self, tag: str) -> Element:
+        """Count the nesting."""
+        self._depth -= 1
+        return super().end(tag)
+
     def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
         """Refuse it before any entity is declared."""
         raise _Declared(name)
@@ -27,16 +50,19 @@ def read(path: Path) -> Element:
     Raises
     ------
     DataFileError
-        Missing or broken file, a document type, another root, macros that are not expanded.
+        Missing, broken, too large or too deep file, a document type, another root, macros that are
+        not expanded.
     """
+    written = contents(path, "a readable URDF file", LARGEST_FILE)
     parser = XMLParser(target=_Builder())
     try:
-        parser.feed(path.read_bytes())
+        parser.feed(written)
         root: Element = parser.close()
-    except OSError as error:
-        raise DataFileError(path, "file", error.strerror, "a readable URDF file") from None
     except _Declared as error:
         raise DataFileError(path, "DOCTYPE", str(error), "a URDF without document type") from None
+    except _Deep as error:
+        expected = f"at most {DEEPEST} elements inside each other"
+        raise DataFileError(path, "element", str(error), expected) from None
     except (ParseError, UnicodeDecodeError, LookupError, ValueError) as error:
         raise DataFileError(path, "file", str(error), "well-formed XML") from None
     if root.tag != "robot":

@@ -19,6 +19,7 @@ from .fields import numbers
 
 #: What a URDF may say besides; such joints can only stand still.
 _OTHERS = ("fixed", "planar", "floating")
+_MOST_GEARS = 50
 _LENGTH = "a length: a finite number in metres"
 
 
@@ -162,6 +163,9 @@ def geared(
         if name in values or name not in joints.gears:
             return values.get(name, 0.0)
         gear = joints.gears[name]
+        if len(seen) > _MOST_GEARS:
+            expected = f"at most {_MOST_GEARS} joints that follow one another"
+            raise DataFileError(path, f"mimic of joint {name}", gear.master, expected)
         if gear.master in free or gear.master not in joints.types or name in seen:
             wanted = "a joint that stands still" if gear.master in free else "another joint"
             expected = f"{wanted}, or lock={{{name!r}: ...}}, which fixes the joint"

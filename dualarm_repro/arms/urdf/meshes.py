@@ -12,6 +12,7 @@ import coal
 import numpy as np
 
 from ...errors import DataFileError
+from ...input_files import LARGEST_MESH, require_regular
 from .parser import bordered
 
 _SCHEMES = ("package://", "model://")
@@ -33,6 +34,7 @@ def mesh_path(urdf: Path, field: str, name: str, packages: Sequence[Path]) -> Pa
     candidates = list(_candidates(urdf, name, packages))
     for candidate in candidates:
         if candidate.is_file():
+            require_regular(candidate, "a mesh file", LARGEST_MESH)
             return candidate
     if name.startswith(_SCHEMES):
         roots = [*map(str, packages), f"the folders above {urdf.name}", *_VARIABLES]

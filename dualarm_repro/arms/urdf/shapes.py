@@ -57,7 +57,7 @@ def check_shapes(path: Path, root: Element, shapes: Shapes) -> None:
                 made.tag = "collision"
                 link.append(made)
         for k, collision in enumerate(link.findall("collision")):
-            _check(path, f"collision {k} of link {name}", collision)
+            check_shape(path, f"collision {k} of link {name}", collision)
             count += 1
     if not count:
         seen = f'shapes="visual" for its {visual} visual shapes, ' if visual else ""
@@ -65,7 +65,14 @@ def check_shapes(path: Path, root: Element, shapes: Shapes) -> None:
         raise DataFileError(path, "collision shapes", 0, expected)
 
 
-def _check(path: Path, field: str, collision: Element) -> None:
+def check_shape(path: Path, field: str, collision: Element) -> None:
+    """Check one collision or visual element.
+
+    Raises
+    ------
+    DataFileError
+        Not exactly one known shape, or numbers of the wrong form.
+    """
     found = [shape for geometry in collision.findall("geometry") for shape in geometry]
     if len(found) != 1 or found[0].tag not in _GEOMETRY:
         tags = ", ".join(str(shape.tag) for shape in found) or "nothing"

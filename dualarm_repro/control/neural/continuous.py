@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
+from ...arguments import checked
 from ...errors import InputError, UnknownNameError
 from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
@@ -23,6 +24,7 @@ RELATIVE, ABSOLUTE, LONGEST = 1e-6, 1e-8, 0.05
 _EXACT_READING = np.empty(0)
 
 
+@checked
 def integrate_network(
     system: ArmSystem,
     circles: Circles,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...kernel import kernel
 from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
@@ -78,6 +79,7 @@ def run_network(arrays, numbers, network, circle, q0, y0, steps, dt, readings, d
     return DONE, steps, run
 
 
+@checked
 def simulate_network(
     system: ArmSystem,
     circles: Circles,

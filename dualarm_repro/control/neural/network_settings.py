@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import Field
 
+from ...arguments import checked
 from ...settings import Positive, Settings, numbers
 from .activation import SLOPE_AT_ZERO, Activation
 from .penalty import Penalty
@@ -73,7 +74,8 @@ class NetworkSettings(Settings):
         default=True, description="a solver of fixed step limits the gain to 1 / (step Psi'(0))"
     )
 
-    def numbers(self, dt: float | None = None) -> NetworkNumbers:
+    @checked
+    def numbers(self, dt: Positive | None = None) -> NetworkNumbers:
         """For the kernels; ``dt`` is the step of a solver of fixed step."""
         slope = SLOPE_AT_ZERO[self.activation]
         # Flat or vertical at zero there is no such limit; 1 / step is the linear one.

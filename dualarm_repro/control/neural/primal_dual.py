@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...errors import InputError
 from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
@@ -140,6 +141,7 @@ def run_primal_dual(arrays, numbers, circle, q0, iterations, steps, dt, readings
     return DONE, steps, run
 
 
+@checked
 def simulate_primal_dual(
     system: ArmSystem,
     circles: Circles,

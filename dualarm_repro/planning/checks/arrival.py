@@ -1,4 +1,4 @@
-"""Whether a motion, whoever planned it, ends where a task wants it to end."""
+"""Whether a motion, whoever planned it, begins where an arm is and ends where a task wants it."""
 
 from __future__ import annotations
 
@@ -11,6 +11,14 @@ from ..tasks.task_file import ReadTask
 
 #: Tolerances: joints and orientation [rad], position [m].
 ANGLE, POSITION = 1e-2, 1e-3
+#: A path whose first row is this near to the start begins there [rad, m].
+BEGUN = 1e-3
+
+
+def away_from_start(placed: PlacedArm, start: np.ndarray, q: np.ndarray) -> float:
+    """Largest distance of a joint of q (nq,) from where the arm starts [rad, m]; whole turns of a
+    continuous joint do not count."""
+    return float(np.abs(placed.arm.difference(start, q)).max())
 
 
 def arrives(placed: PlacedArm, task: ReadTask, q: np.ndarray) -> bool:

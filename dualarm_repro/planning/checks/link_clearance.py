@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from ...arguments import Positive, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, Scene, densify, distances
 from ...scene.certificate import Bracket, certified_minimum
@@ -52,7 +53,10 @@ class LinkClearance:
         )
 
 
-def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float) -> LinkClearance:
+@checked
+def link_clearance(
+    scene: Scene, paths: Mapping[str, JointPath], max_step: Positive
+) -> LinkClearance:
     """Distances along the motion of the arms in ``paths``, from the first index to the last of any.
 
     An arm waits at the ends of its path. Arms of the scene without a path are left out.
@@ -74,14 +78,16 @@ def link_clearance(scene: Scene, paths: Mapping[str, JointPath], max_step: float
     return LinkClearance(moving.pairs.names, index, q, distances(moving, q, index))
 
 
+@checked
 def certified_clearance(
-    scene: Scene, paths: Mapping[str, JointPath], tolerance: float = 1e-3
+    scene: Scene, paths: Mapping[str, JointPath], tolerance: Positive = 1e-3
 ) -> Bracket:
     """Bounds on the smallest distance of the same motion that hold between the looks too."""
     moving, q, index = _motion(scene, paths)
     return certified_minimum(moving, q, index, tolerance)
 
 
+@checked
 def require_links_clear(scene: Scene, q: Mapping[str, ArrayLike], field: str = "start") -> None:
     """Raise if two watched bodies touch, with the arms at ``q`` and without all other arms.
 

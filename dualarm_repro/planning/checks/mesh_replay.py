@@ -1,7 +1,8 @@
 """Distances of the exact shapes of arms along a motion: a check that knows no capsule and no hull.
 
 Every shape of one arm against every shape of another, and of one arm the shapes two or more joints
-apart that are not left out (:attr:`...arms.arm.Arm.exclusions`), all by coal on what the files say.
+apart that are not left out (:attr:`...arms.arm.Arm.exclusions`) and the neighbours that count
+(:attr:`...arms.arm.Arm.neighbours`), all by coal on what the files say.
 Two shapes some parts of which are left out, since these never meet, count where they touch.
 """
 
@@ -103,11 +104,13 @@ def _left_out(placed: PlacedArm, part: bool) -> set[frozenset[str]]:
 
 def _watched(scene: Scene, solids: list[_Solid]) -> Iterator[tuple[int, int]]:
     silent = [_left_out(placed, part=False) for placed in scene.arms]
+    near = [{frozenset((n.first, n.second)) for n in one.arm.neighbours} for one in scene.arms]
     for a, b in combinations(range(len(solids)), 2):
         one, other = solids[a], solids[b]
         if one.owner != other.owner:
             if one.joint or other.joint:
                 yield a, b
-        elif abs(one.joint - other.joint) > 1:
-            if frozenset((one.name, other.name)) not in silent[one.owner]:
-                yield a, b
+            continue
+        names, apart = frozenset((one.name, other.name)), abs(one.joint - other.joint)
+        if names in near[one.owner] if apart == 1 else apart and names not in silent[one.owner]:
+            yield a, b

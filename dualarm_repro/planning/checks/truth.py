@@ -9,12 +9,13 @@ from enum import StrEnum
 
 import numpy as np
 
-from ...errors import UnknownNameError
+from ...arguments import checked
 from ...scene import JointPath, Scene, certified_minimum, distances
 from ...scene.broad_phase import near_scene
 from ...scene.certificate import Bracket
 from ...scene.exact_shapes import exact_minimum
 from ..gate import ROUNDING, beyond_limits
+from .whole_motion import require_paths
 
 #: Wanted width of the bracket, and that tried where the wide one does not decide [m].
 TOLERANCE, FINE = 1e-3, 2e-5
@@ -72,6 +73,7 @@ class Truth:
 _Pair = tuple[str, str] | None
 
 
+@checked
 def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
     """Judge the motion of all arms of a scene, from the first index to the last of any path.
 
@@ -85,12 +87,12 @@ def truth(scene: Scene, paths: Mapping[str, JointPath]) -> Truth:
 
     Raises
     ------
+    InputError
+        No mapping of name to JointPath.
     UnknownNameError
         An arm without a path, or a path without an arm.
     """
-    if set(paths) != set(scene.columns):
-        expected = f"paths of all of {', '.join(scene.columns)}"
-        raise UnknownNameError("truth", "paths", sorted(paths), expected)
+    require_paths("truth", scene, paths)
     first = min(float(path.index[0]) for path in paths.values())
     tracks = [*paths.values(), *(mover.path for mover in scene.moving.values())]
     index = np.unique(np.concatenate([track.index for track in tracks]))

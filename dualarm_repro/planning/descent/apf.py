@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...scene.bodies import PlacedArm
 from ...settings import code
 from ..field.control_points import end_effector
@@ -20,6 +21,7 @@ from .updates import next_configuration
 from .virtual_point import initial, may_finish, switched
 
 
+@checked
 def plan_apf(
     placed: PlacedArm,
     start: ArrayLike,

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...annotation import real_array
+from ...arguments import NonNegative, Number, checked
+from ...errors import InputError
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ..field.field_kernels import evaluate, field_of, gradient, workspace
@@ -54,6 +57,7 @@ class Batch:
         return np.array([reason is StopReason.REACHED for reason in self.reason])
 
 
+@checked
 def plan_batch(
     placed: PlacedArm,
     starts: ArrayLike,
@@ -116,9 +120,14 @@ def _run_all(field, rules, switch_rules, starts, rows, last, numbers, measures):
         measures[n, 1] = np.sqrt((work.gradient * work.gradient).sum())
 
 
+@checked
 def perturbed(
-    start: ArrayLike, half_width: float, count: int, rng: np.random.Generator
+    start: ArrayLike, half_width: NonNegative, count: Number, rng: np.random.Generator
 ) -> np.ndarray:
     """``count`` starts q + u with u uniform in [-half_width, half_width]^nq [rad], (count, nq)."""
-    start = np.asarray(start, dtype=float)
-    return start + rng.uniform(-half_width, half_width, (count, len(start)))
+    try:
+        start = real_array(start)
+        count_of = len(start)
+    except (TypeError, ValueError):
+        raise InputError("perturbed", "start", start, "finite numbers (nq,) [rad]") from None
+    return start + rng.uniform(-half_width, half_width, (count, count_of))

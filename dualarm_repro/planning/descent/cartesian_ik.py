@@ -19,6 +19,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...arms.wrist_geometry import wrist_geometry
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
@@ -35,6 +36,7 @@ from .outcome import finished
 from .problem import PlanningProblem, problem, require_clear
 
 
+@checked
 def plan_cartesian_ik(
     placed: PlacedArm,
     start: ArrayLike,
@@ -68,6 +70,7 @@ def plan_cartesian_ik(
     return finished(made, Record(*kept, reason, 0, 0, perf_counter() - began))
 
 
+@checked
 def plan_cartesian_ik_batch(
     placed: PlacedArm,
     starts: ArrayLike,

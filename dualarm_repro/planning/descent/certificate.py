@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arguments import Number, checked
 from ...differences import central_differences
 from .problem import PlanningProblem
 
@@ -41,7 +42,8 @@ class Certificate:
     position_error: float
 
 
-def certify(made: PlanningProblem, q: np.ndarray, step: int) -> Certificate:
+@checked
+def certify(made: PlanningProblem, q: np.ndarray, step: Number) -> Certificate:
     """Gradient and curvature of U_att + U_rep at ``q``, with the obstacles of ``step``."""
     gradient = made.field.gradient(q, step)
     lower, upper = made.limits

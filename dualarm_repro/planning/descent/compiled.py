@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.vectors import dot, minus, vector
@@ -67,6 +68,7 @@ class End(NamedTuple):
     arrivals: int
 
 
+@checked
 def plan_apf_compiled(
     placed: PlacedArm,
     start: ArrayLike,

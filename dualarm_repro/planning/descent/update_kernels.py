@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...arms.kernels import Chain
+from ...arms.chain import Chain
 from ...kernel import kernel
 from ...scene.posing import link_frames
 from ...settings import code

@@ -13,6 +13,7 @@ from typing import NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...arms import Arm
 from ...errors import InputError, UnknownNameError
 from ...scene import posing
@@ -44,6 +45,7 @@ class ControlPoints(NamedTuple):
     weight: np.ndarray
 
 
+@checked
 def control_points(
     arm: Arm,
     choice: PointSet | Sequence[int],

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arms.kernels import Chain
+from ...arms.chain import Chain
 from ...kernel import kernel
 from ...scene.posing import link_frames
 from ...scene.vectors import dot, minus, out_of_frame, scaled, vector

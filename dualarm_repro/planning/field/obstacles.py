@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
+from ...arguments import Number, Shape, checked
 from ...errors import InputError, UnknownNameError
 from ...scene import JointPath, PlacedArm, Scene
 from ...scene.pair_kernels import capsules_boxes, capsules_capsules, capsules_planes
@@ -44,14 +46,17 @@ class Obstacles:
     half: np.ndarray
     planes: np.ndarray
 
-    def at(self, step: int) -> int:
+    @checked
+    def at(self, step: Number) -> int:
         """Row of the arrays that holds at a step."""
         return min(step, len(self.cores) - 1)
 
-    def moving(self, step: int) -> bool:
+    @checked
+    def moving(self, step: Number) -> bool:
         """Whether some shape is yet to move."""
         return step < len(self.cores) - 1
 
+    @checked
     def with_arm(self, placed: PlacedArm, points: ControlPoints, path: JointPath) -> Obstacles:
         """These obstacles and the control points of an arm that follows a path over the steps.
 
@@ -71,8 +76,12 @@ class Obstacles:
             boxes=_held(self.boxes, rows),
         )
 
+    @checked
     def distances(
-        self, ends: np.ndarray, radius: np.ndarray, step: int
+        self,
+        ends: Annotated[np.ndarray, Shape("N", "K", 2, 3)],
+        radius: Annotated[np.ndarray, Shape("K")],
+        step: Number,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """d, the nearest point of each control point, and grad d there.
 
@@ -110,6 +119,7 @@ class Obstacles:
         return np.concatenate(distances, axis=2), witness[..., 0, :], -witness[..., 2, :]
 
 
+@checked
 def obstacles_of(scene: Scene, leave_out: Collection[str] = ()) -> Obstacles:
     """Everything in a scene that stands or moves by itself; its controlled arms are no obstacles.
 

@@ -11,6 +11,8 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
+from ...arguments import Number, checked
+from ...errors import ConfigurationError
 from ...scene.bodies import PlacedArm
 from ...scene.posing import cores_in
 from ..settings import Combination
@@ -21,13 +23,14 @@ from .obstacles import Obstacles
 class Potential(Protocol):
     """U(q) at a step of the plan, to which moving obstacles have moved."""
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U for (nq,) -> float or for (N, nq) -> (N,)."""
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,) for one configuration (nq,)."""
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class PositionAttraction:
     """U = k/2 |X(q) - X_t|^2, dU/dq = k J^T (X - X_t), with the flange X and its Jacobian J.
@@ -46,16 +49,19 @@ class PositionAttraction:
     target: np.ndarray
     gain: float
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    @checked
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
         return 0.5 * self.gain * np.sum((end_effector(self.placed, q) - self.target) ** 2, axis=-1)
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         J = self.placed.placement.rotation @ self.placed.arm.jacobian(q)[:3]
         return self.gain * J.T @ (end_effector(self.placed, q) - self.target)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class JointAttraction:
     """U = k/2 |q - q_t|^2, dU/dq = k (q - q_t).
@@ -74,15 +80,20 @@ class JointAttraction:
     target: np.ndarray
     gain: float
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    @checked
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
+        _require_joints("JointAttraction", q, len(self.target))
         return 0.5 * self.gain * np.sum((q - self.target) ** 2, axis=-1)
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
+        _require_joints("JointAttraction", q, len(self.target))
         return self.gain * (q - self.target)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class PointRepulsion:
     """U = sum_i w_i sum_m u(d_im), u = k/2 (1/d - 1/d_0)^2 for d < d_0 and 0 beyond; Khatib 1986.
@@ -111,21 +122,29 @@ class PointRepulsion:
     contact: float
     combination: Combination
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    @checked
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U."""
         return self.terms(q, step).sum(axis=-1)
 
-    def terms(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def terms(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """Share of each control point in U, (K,) or (N, K)."""
         return self._shares(q, step).sum(axis=-1)
 
-    def acting(self, q: np.ndarray, step: int = 0) -> tuple[str, ...]:
+    @checked
+    def acting(self, q: np.ndarray, step: Number = 0) -> tuple[str, ...]:
         """Names of the shapes that repel at one configuration."""
         acting = np.flatnonzero(self._shares(q, step).any(axis=0))
         return tuple(self.obstacles.names[m] for m in acting)
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
+        if q.ndim != 1:
+            expected = f"({self.placed.arm.nq},)"
+            raise ConfigurationError("PointRepulsion", "shape of q", q.shape, expected)
+        _require_joints("PointRepulsion", q, self.placed.arm.nq)
         frames = frames_of(self.placed, q[np.newaxis])
         ends = cores_in(frames, self.points.joint, self.points.local)
         found = self.obstacles.distances(ends, self.points.radius, step)
@@ -136,7 +155,8 @@ class PointRepulsion:
         slope = self.points.weight[:, np.newaxis] * self._slope(distance) * self._chosen(distance)
         return np.einsum("km,kmr,kmjr,kj->j", slope, outward, velocity, carried)
 
-    def distances(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def distances(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """d_im, (K, M) or (N, K, M) [m]."""
         ends = ends_of(self.placed, self.points, np.atleast_2d(q))
         distance = self.obstacles.distances(ends, self.points.radius, step)[0]
@@ -170,16 +190,24 @@ class PointRepulsion:
 Parts = TypeVar("Parts", bound=Sequence[Potential], covariant=True)
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Sum(Generic[Parts]):
     """U = sum of the parts."""
 
     parts: Parts
 
-    def value(self, q: np.ndarray, step: int = 0) -> float | np.ndarray:
+    @checked
+    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
         """U."""
         return sum(part.value(q, step) for part in self.parts)
 
-    def gradient(self, q: np.ndarray, step: int = 0) -> np.ndarray:
+    @checked
+    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         return sum((part.gradient(q, step) for part in self.parts), np.zeros_like(q))
+
+
+def _require_joints(source: str, q: np.ndarray, count: int) -> None:
+    if q.shape[-1:] != (count,):
+        raise ConfigurationError(source, "shape of q", q.shape, f"({count},), or rows of {count}")

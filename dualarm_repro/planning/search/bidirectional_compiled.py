@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arms.kernels import Chain
+from ...arms.chain import Chain
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
-from ...scene.posing import link_frames
+from ...scene.posing import set_frames
 from ...scene.vectors import dot, minus, out_of_frame, scaled, vector
 from ...settings import code
 from ..descent.adaptive_step import step_length
@@ -186,7 +186,7 @@ def search_rules(made: SearchProblem) -> SearchRules:
 @kernel
 def run(field, rules, hulls, start, goal, rows, memory):
     """Search until a named end; returns its code and the number of searches."""
-    force = np.empty(len(start))
+    force, frames = np.empty(len(start)), np.empty((len(start) + 1, 3, 4))
     shapes = len(field.core_radius) + len(field.half) + len(field.planes)
     around = np.empty((shapes + min(1, len(hulls[0].planes)), 4))
     rows.path[0, 0], rows.path[1, 0] = start, goal
@@ -207,13 +207,13 @@ def run(field, rules, hulls, start, goal, rows, memory):
             reason = _STEP_LIMIT
         elif turn - since >= rules.stuck_searches:
             reason = _TRAPPED
-        resultant(field, rules, hulls[0], 0, turn, target, rows, memory, around, force)
+        resultant(field, rules, hulls[0], 0, turn, target, rows, memory, frames, around, force)
         if reason < 0:
             move(field, rules, 0, turn, force, rows, memory)
         if rules.two_sided:
             late = reason < 0 and not rules.aims_at_old_end
             aim = rows.path[0, turn + 1] if late else forward
-            resultant(field, rules, hulls[1], 1, turn, aim, rows, memory, around, force)
+            resultant(field, rules, hulls[1], 1, turn, aim, rows, memory, frames, around, force)
             if reason < 0:
                 move(field, rules, 1, turn, force, rows, memory)
         if reason >= 0:
@@ -222,10 +222,10 @@ def run(field, rules, hulls, start, goal, rows, memory):
 
 
 @kernel
-def resultant(field, rules, hulls, side, turn, target, rows, memory, around, force):
+def resultant(field, rules, hulls, side, turn, target, rows, memory, frames, around, force):
     """F_att + F_rep of one half into ``force``; notes distances and gain factors."""
     q = rows.path[side, turn]
-    frames = link_frames(field.chain, field.base, q.reshape(1, -1))[0]
+    set_frames(field.chain, field.base, q, frames)
     set_conic_force(q, target, field.zeta, field.threshold, field.measure, force)
     row = min(turn, len(hulls.planes) - 1)
     for k in range(len(field.joint)):

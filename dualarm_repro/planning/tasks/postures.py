@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import checked
 from ...arms.poses import homogeneous
 from ...errors import InputError
 from ...scene import PlacedArm, facing
@@ -16,6 +17,7 @@ from .tip_goal import REACHED, nearest_posture
 _UP, _AHEAD = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
 
 
+@checked
 def posture(
     placed: PlacedArm,
     position: ArrayLike,

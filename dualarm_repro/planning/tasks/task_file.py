@@ -23,16 +23,18 @@ from typing import Annotated, Any, Generic, Literal, TypeVar, overload
 import numpy as np
 from pydantic import Field
 
+from ...arguments import checked
 from ...arms import Arm
 from ...datafiles import StrictModel
 from ...errors import DataFileError, InputError
+from ...input_files import path_of
 from ...scene import Scene, distances
 from ...scene.broad_phase import with_arms
 from ...scene.configuration_entry import Configuration, PostureEntry
 from ...scene.quantity_entries import Name, Number
 from ...scene.scene_file import SceneFile, scene_of
-from ...scene.written import read_written
 from ...settings import Settings
+from ...written import read_written
 from ..defaults import default_settings, default_two_arm_settings
 from ..faults import TaskFaults
 from ..given_settings import merged
@@ -138,6 +140,7 @@ def load_tasks(
     """With settings of that kind."""
 
 
+@checked
 def load_tasks(
     path: str | Path,
     kind: type[Settings] = APFSettings,
@@ -162,9 +165,9 @@ def load_tasks(
     TaskFaults
         The same for several fields at once.
     """
-    path = Path(path)
+    path = path_of("load_tasks", "path", path)
     content = read_written(path)
-    if "scene" not in content:
+    if not content.keys() & {"scene", "tasks"}:
         written, scene = scene_of(path, content)
         entries = {n: TaskEntry() for n, arm in written.arms.items() if arm.goal is not None}
         if not entries and goals_needed:

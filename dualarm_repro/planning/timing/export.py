@@ -11,8 +11,8 @@ import yaml
 
 from .timed_motion import TimedMotion
 
-#: Digits after the point in files: a micrometre, a microradian, a microsecond.
-_DIGITS = 6
+#: Digits after the point in files, so many that differences of rows keep the limits as well.
+_DIGITS = 9
 
 
 def to_csv(motion: TimedMotion) -> str:

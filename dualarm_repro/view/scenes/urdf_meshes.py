@@ -41,15 +41,22 @@ def decimated(
 
     J. Rossignac, P. Borrel, Multi-resolution 3D approximations for rendering, 1993.
     """
-    keys = np.floor(vertices / cell).astype(np.int64)
-    _, where, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    where = where.ravel()
+    keys = _in_order(np.floor(vertices / cell).astype(np.int64))
+    _, where, counts = np.unique(keys, return_inverse=True, return_counts=True)
     joined = np.zeros((len(counts), 3))
     np.add.at(joined, where, vertices)
     kept = where[faces]
     proper = (kept[:, 0] != kept[:, 1]) & (kept[:, 1] != kept[:, 2]) & (kept[:, 2] != kept[:, 0])
-    _, first = np.unique(np.sort(kept[proper], axis=1), axis=0, return_index=True)
+    _, first = np.unique(_in_order(np.sort(kept[proper], axis=1)), return_index=True)
     return joined / counts[:, np.newaxis], kept[proper][np.sort(first)]
+
+
+def _in_order(rows: np.ndarray) -> np.ndarray:
+    """One number for each row of three integers (N, 3), in the order of the rows: sorted several
+    times faster than they are."""
+    rows = rows - rows.min(axis=0, initial=0)
+    spans = rows.max(axis=0, initial=0) + 1
+    return np.asarray((rows[:, 0] * spans[1] + rows[:, 1]) * spans[2] + rows[:, 2])
 
 
 def _description(arm: Arm) -> Path | None:

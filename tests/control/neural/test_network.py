@@ -47,9 +47,9 @@ def test_the_flow_ends_near_the_exact_minimiser():
         optimality(settings.numbers(), p.parts, y, F)
         assert np.abs(F).max() < 1e-8
         errors.append(np.abs(y[:14] - exact.x).max())
-    # The bias of the quadratic penalty is the multiplier over the factor.
+    # The bias of the quadratic penalty is the multiplier over the factor, to first order.
     assert errors[0] / errors[1] == pytest.approx(10, rel=0.2)
-    assert errors[1] / errors[2] == pytest.approx(10, rel=0.2)
+    assert errors[1] / errors[2] == pytest.approx(10, rel=0.2)  # to first order, as above
 
 
 def test_problem_rate_is_the_derivative_along_the_motion(crossing):
@@ -99,7 +99,7 @@ def test_growing_gain_diverges_when_predicted(crossing, gamma):
         NetworkSettings(gamma=gamma, capped=False),
     )
     assert "diverged" in motion.stopped
-    assert motion.time[-1] == pytest.approx(divergence_time(gamma, 1e-3), abs=0.4)
+    assert motion.time[-1] == pytest.approx(divergence_time(gamma, 1e-3), abs=0.4)  # steps
 
 
 def test_without_the_hessian_the_network_diverges(crossing):

@@ -67,4 +67,5 @@ def test_stacked_inequalities_hold_where_the_exact_minimiser_is(p):
     assert (C @ x <= d + 1e-8).all()
     assert penalties(p, FORMS[0], x).shape == (len(d), 3)
     stiff = NetworkSettings(penalty="squared_softplus", factor=1e5, sharpness=1e4)
+    # a stiff penalty is not an infinite one
     np.testing.assert_allclose(rest_point(p, stiff)[: p.size], x, atol=1e-2)

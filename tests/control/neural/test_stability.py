@@ -64,4 +64,5 @@ def test_single_precision_stays_near_double(crossing):
     ]
     apart = np.abs(runs[0].q - runs[1].q).max()
     assert 0.0 < apart < 1e-2
+    # round-off of single precision along the whole run
     assert runs[1].largest_error == pytest.approx(runs[0].largest_error, rel=0.05)

@@ -99,7 +99,8 @@ def test_every_kind_of_disturbance_is_of_its_size():
     assert np.abs(push).min() == np.abs(push).max() == 0.1
     assert (push == push[0]).all()
     noisy = robust._disturbed("readings", 2e-3, 0)["readings"]
-    assert noisy.noise.std() == pytest.approx(2e-3, rel=0.02)
+    # a drawn sample, by a few standard errors of its deviation
+    assert noisy.noise.std() == pytest.approx(2e-3, rel=0.01)
     assert (robust._disturbed("readings", 2e-3, 1)["readings"].noise != noisy.noise).any()
     wrong = robust._disturbed("model", 5e-3, 0)["readings"]
     np.testing.assert_array_equal(np.abs(wrong.offset), 5e-3)

@@ -40,17 +40,20 @@ def test_improved_is_at_least_as_good_as_traditional():
         assert sum(two.planner) >= sum(one.planner)
 
 
-def test_goal_is_displaced_by_the_ratio_in_proportion():
-    """Close to a goal that obstacles repel, attraction zeta e balances the repulsion there."""
+def test_a_displaced_goal_is_where_attraction_balances_repulsion():
+    """At rest beside a goal that obstacles repel, zeta e is the torque of the repulsion there.
+
+    Steps of a fixed length end in a chatter about that point, by half of which it is known.
+    """
     plan = Traditional.nominal(gain_ratio=1e-3, joint_tolerance=1e-3).plan()
     assert classify(plan) is Failure.DISPLACED_GOAL
     made = plan.problem
-    found = surroundings_at(made, 0, made.goal, 0)
+    last = plan.path[-30:]
+    rest, chatter = last.mean(axis=0), np.linalg.norm(np.ptp(last, axis=0))
+    found = surroundings_at(made, 0, rest, 0)
     torque = repulsive_torque(made, found, np.full(3, 1e-3 * PRINTED.zeta))
-    rest = plan.path[-30:].mean(axis=0)
-    assert np.linalg.norm(rest - made.goal) == pytest.approx(
-        np.linalg.norm(torque) / PRINTED.zeta, rel=0.35
-    )
+    displaced, balance = rest - made.goal, torque / PRINTED.zeta
+    assert np.linalg.norm(displaced - balance) < 0.5 * chatter < 0.5 * np.linalg.norm(displaced)
 
 
 def test_replay_reproduces_the_reported_clearance():

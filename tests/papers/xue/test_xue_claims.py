@@ -111,6 +111,7 @@ def test_runs_of_one_arrangement_are_one_observation():
     part = pd.Series([10.0, 0.0] * 50)
     found = stored.mean_share(part, pd.Series([10.0] * 100))
     assert found.value == 0.5
+    # the spread of a sample of 100 has 99 degrees of freedom: 0.5 % more
     assert found.high - found.low == pytest.approx(2 * 1.96 * 0.5 / 10, rel=0.01)
     assert found.high - found.low > 2 * (Share.of(500, 1000).high - Share.of(500, 1000).low)
     empty = stored.mean_share(pd.Series([0.0]), pd.Series([0.0]))

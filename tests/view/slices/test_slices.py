@@ -59,7 +59,7 @@ def test_a_gain_scales_its_term():
         for gain in (1.0, 2.0)
     )
     heights = [data_of(page)["axes"][1][1] for page in (once, twice)]
-    assert heights[1] == pytest.approx(2.0 * heights[0], rel=0.1)
+    assert heights[1] == pytest.approx(2.0 * heights[0])
 
 
 def test_the_length_of_a_line_is_its_coordinate():

@@ -1,13 +1,17 @@
-"""Scene and task files read so that no file can overwhelm the reader: size, nesting and the number
-of values, with aliases written out, are bounded before anything is made of them."""
+"""Scene, task and robot files read so that no file can overwhelm the reader.
+
+Size, nesting and the number of values, with aliases written out, are bounded before anything is
+made of them.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
-from ..datafiles import read_yaml
-from ..errors import DataFileError
+from .datafiles import opened, parsed_yaml
+from .errors import DataFileError
+from .input_files import contents
 
 #: Largest file [bytes], about ten thousand obstacles.
 LARGEST_FILE = 1_000_000
@@ -23,26 +27,13 @@ def read_written(path: Path) -> dict[str, Any]:
     Raises
     ------
     DataFileError
-        Missing, too large, nested too deep, aliases that multiply or contain themselves, not YAML.
+        Missing, no regular file, too large, nested too deep, aliases that multiply or contain
+        themselves, not YAML.
     """
     path = Path(path)
-    try:
-        size = path.stat().st_size
-        if path.is_dir():
-            raise DataFileError(path, "file", "a folder", "a readable YAML file")
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "no such name"
-        raise DataFileError(path, "file", reason, "a readable YAML file") from None
-    if size > LARGEST_FILE:
-        expected = f"at most {LARGEST_FILE / 1e6:g} MB, about ten thousand obstacles"
-        raise DataFileError(path, "size", f"{size / 1e6:.1f} MB", expected)
-    _refuse_deep(path)
-    try:
-        content = read_yaml(path)
-    except RecursionError:
-        raise _too_deep(path) from None
-    except (ValueError, OverflowError) as error:  # of a number, a date or a byte that is none
-        raise DataFileError(path, "content", str(error), "well-formed YAML") from None
+    written = contents(opened(path), "a readable YAML file", LARGEST_FILE)
+    _refuse_deep(path, written)
+    content = parsed_yaml(path, written)
     _count(path, content, {}, 0)
     return content
 
@@ -52,10 +43,10 @@ def _too_deep(path: Path) -> DataFileError:
     return DataFileError(path, "nesting", "deeper", expected)
 
 
-def _refuse_deep(path: Path) -> None:
+def _refuse_deep(path: Path, written: bytes) -> None:
     """Brackets and indents deeper than any scene; the parser follows them by recursion."""
     depth = 0
-    for line in path.read_bytes().splitlines():
+    for line in written.splitlines():
         indent = len(line) - len(line.lstrip(b" -"))
         for byte in line if b"[" in line or b"{" in line or depth else b"":
             depth += (byte in b"[{") - (byte in b"]}")

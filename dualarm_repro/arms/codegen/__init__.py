@@ -1,0 +1,1 @@
+"""Code for the kinematics of a chain: generated, compiled, and run for many configurations."""

@@ -1,0 +1,137 @@
+"""A quantity of a chain as generated code: its source, its machine code, its values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cache, cached_property
+from hashlib import sha256
+from typing import Any
+
+import numpy as np
+from numba.core import config
+
+from ...kernel import kernel
+from ..trigonometry import FAR, sincos
+from . import recursions
+from .program import Program, Term, Vector
+from .simd import STORES
+from .source import block_function, plain_function
+from .structure import Structure
+
+_NUMBA: Any = config
+Carried = tuple[tuple[int, Vector], ...]
+#: Function of flat configurations, constants and a matrix that takes the results.
+Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
+
+
+class Generated:
+    """The code of one quantity for all chains of one structure.
+
+    Attributes
+    ----------
+    source : str
+        The plain function (s, c, d, k), see :func:`.source.plain_function`.
+    size : int
+        Number of results of a configuration.
+    """
+
+    def __init__(
+        self, name: str, structure: Structure, program: Program, results: Sequence[Term]
+    ) -> None:
+        self._program, self._results, self._structure = program, results, structure
+        self.name, self.size = name, len(results)
+        self.source = plain_function(name, program, results, structure)
+
+    @cached_property
+    def plain(self) -> Callable[..., tuple[Any, ...]]:
+        """The plain function, for arrays of numpy."""
+        scope = {"sqrt": np.sqrt, "reciprocal": _reciprocals}
+        return self.function(scope)
+
+    def function(self, scope: dict[str, Any]) -> Callable[..., tuple[Any, ...]]:
+        """The plain function for other numbers, with ``sqrt`` and ``reciprocal`` of their kind."""
+        names = dict(scope)
+        exec(compile(self.source, f"<generated {self.name}>", "exec"), names)
+        made: Callable[..., tuple[Any, ...]] = names[self.name]
+        return made
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        """The loop over configurations, see :func:`.source.block_function`.
+
+        Its name holds the digest of its text, under which its machine code is kept. Where numba is
+        switched off it is a function that does nothing and says so.
+        """
+        if _NUMBA.DISABLE_JIT:
+            return nothing
+        text = block_function("block", self._program, self._results, self._structure)
+        name = f"{self.name}_{sha256(text.encode()).hexdigest()[:16]}"
+        text = text.replace("def block(", f"def {name}(", 1)
+        exec(compile(text, f"<generated {name}>", "exec"), _COMPILED)
+        made: Compiled = kernel(_COMPILED[name])
+        return made
+
+    def rows(self, q: np.ndarray, constants: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+        """Values of one shape each for finite q (N, n), as (N, ...).
+
+        Angles so far from 0 that the fast sine is not exact go through the plain function.
+        """
+        out = np.empty((len(q), *shape))
+        flat = np.ascontiguousarray(q).reshape(-1)
+        if not flat.flags.writeable:  # the compiler has another type for these
+            flat = flat.copy()
+        if not self.compiled(flat, constants, out.reshape(-1, shape[-1])):
+            far = np.ones(len(q), dtype=bool)
+            if not _NUMBA.DISABLE_JIT:
+                far = ~(np.abs(q) <= FAR).all(axis=1)
+            out[far] = self.by_numpy(q[far], constants).reshape(-1, *shape)
+        return out
+
+    def by_numpy(self, q: np.ndarray, constants: np.ndarray) -> np.ndarray:
+        """Values (N, size) for q (N, n) by the plain function."""
+        columns = q.T
+        out = np.empty((len(q), self.size))
+        found = self.plain(np.sin(columns), np.cos(columns), columns, constants)
+        for e, values in enumerate(found):
+            out[:, e] = values
+        return out
+
+
+@cache
+def generated(quantity: str, structure: Structure, carried: Carried = ()) -> Generated:
+    """The code of a quantity, a name of a function of :mod:`.recursions`."""
+    program = Program()
+    derive = getattr(recursions, quantity)
+    results = derive(program, structure, carried) if carried else derive(program, structure)
+    return Generated(quantity, structure, program, results)
+
+
+def nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
+    """Compiled code that there is not: it has done nothing, and says so."""
+    return False
+
+
+#: Squares up to here count as 0: their reciprocals would overflow.
+TINY = 1e-290
+
+
+def _reciprocals(x: np.ndarray) -> np.ndarray:
+    return np.divide(1.0, x, out=np.zeros_like(x), where=x > TINY)
+
+
+@kernel
+def _reciprocal(x):
+    return 1.0 / x if x > TINY else 0.0
+
+
+#: What the compiled loops refer to.
+_COMPILED: dict[str, Any] = {
+    "__name__": __name__,
+    "FAR": FAR,
+    "np": np,
+    "reciprocal": _reciprocal,
+    "sincos": sincos,
+    "sqrt": math.sqrt,
+    **{f"store_{size}": store for size, store in STORES.items()},
+}

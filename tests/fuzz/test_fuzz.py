@@ -1,0 +1,65 @@
+"""Hostile input with fixed seeds: what is wrong is refused in one line, nothing else happens."""
+
+import math
+import resource
+
+import calls
+import numpy as np
+import pytest
+from outcome import judged
+from targets import cases, targets
+
+from dualarm_repro.errors import InputError
+
+#: Cases in all, and memory that they may take beyond what is taken already.
+CASES, MEMORY = 10_000, 6 * 2**30
+
+
+@pytest.fixture(autouse=True, scope="module")
+def bounded_memory():
+    """An allocation of more than a few GB fails, as it should be refused before."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        taken = int(file.read().split()[0]) * resource.getpagesize()
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("name", targets())
+def test_only_our_own_errors_and_no_nan(name):
+    found = {}
+    for seed in range(cases(name, CASES)):
+        kind, what, case = targets()[name](seed)
+        if kind == "defect":
+            found.setdefault(what, (seed, case))
+    assert not found
+
+
+def test_so_many_cases():
+    assert sum(cases(name, CASES) for name in targets()) >= CASES
+
+
+@pytest.mark.parametrize("name", calls.known())
+def test_valid_arguments_are_answered(name):
+    entry = calls.known()[name]
+    kind, what = judged(lambda: entry.function(**entry.arguments()), nan_allowed=True)
+    assert (kind, what) == ("answered", "")
+
+
+def test_the_judge_knows_defects():
+    def refuses():
+        raise InputError("a", "b", math.nan, "c")
+
+    def stumbles():
+        return {}["x"]
+
+    def breaks_the_line():
+        raise InputError("a\nb", "c", 1, "d")
+
+    assert judged(refuses) == ("refused", "")
+    assert judged(lambda: [1.0, np.ones(3)]) == ("answered", "")
+    assert judged(stumbles)[0] == judged(breaks_the_line)[0] == "defect"
+    assert judged(lambda: (1.0, np.array([math.nan])))[1] == "NaN for finite input"
+    assert judged(lambda: 1.0, nan_given=True)[1] == "answers for NaN"

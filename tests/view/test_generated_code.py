@@ -1,0 +1,23 @@
+"""The generated code of an arm run on symbols is its derived kinematics, and a wrong one is not."""
+
+import pytest
+
+from dualarm_repro import load_arm
+from dualarm_repro.view.foundations import generated_code
+
+
+@pytest.mark.parametrize("name", ["irb120", "es165d", "er16", "es165d-slave"])
+def test_code_is_derived(name):
+    assert generated_code.is_derived(load_arm(name))
+
+
+def test_another_code_is_not(monkeypatch):
+    run = generated_code.symbolic_run
+
+    def wrong(arm):
+        pose = run(arm)
+        pose[0, 3] = -pose[0, 3]
+        return pose
+
+    monkeypatch.setattr(generated_code, "symbolic_run", wrong)
+    assert not generated_code.is_derived(load_arm("irb120"))
