@@ -13,7 +13,7 @@ export UV_SYSTEM_CERTS := 1
 export UV_NATIVE_TLS := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust-ledger install-matrix supply-chain supply-chain-check results arms metadata claims bench serve lint lock wheel clean
+.PHONY: help env shell book browser pdf lab notebooks-test test verify verify-portable trust trust-ledger faults install-matrix supply-chain supply-chain-check results arms metadata claims bench serve lint lock wheel clean
 
 help:  ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-19s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -54,6 +54,12 @@ verify: $(VENV)/.installed  ## recompute every item from nothing and compare wit
 
 verify-portable: $(VENV)/.installed  ## verify, then test, with the machine code of other processors
 	$(BIN)/python tools/verify_portable.py --tests
+
+trust: $(VENV)/.installed  ## attack everything, which takes hours, and write the figures of tests/README.md
+	$(BIN)/python tools/trust.py
+
+faults: $(VENV)/.installed  ## kills, full disks, bad caches, odd surroundings: count what survives
+	$(BIN)/python tools/faults.py
 
 trust-ledger: $(VENV)/.installed  ## change what is obtained, printed, assumed and the methods: all is noticed
 	$(BIN)/python tools/trust_ledger.py

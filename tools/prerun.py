@@ -19,13 +19,13 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from jupyter_cache import get_cache
 from jupyter_cache.executors import load_executor
+from notebook_cache import open_cache, seal
 
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.ledger import record
 from dualarm_repro.ledger.closure import closure_of_modules, hash_file
-from dualarm_repro.ledger.files import to_json
+from dualarm_repro.ledger.files import to_json, write_text
 from dualarm_repro.ledger.reference import read_costs
 from dualarm_repro.papers import load
 from dualarm_repro.sources import graph
@@ -137,13 +137,13 @@ def drop_changed(cache: Any, pages: Iterable[Path], keys_file: Path) -> None:
         known = json.loads(keys_file.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         known = {}
+    known = known if isinstance(known, dict) else {}
     keys = {str(page): page_key(page) for page in pages}
     stale = {page for page, key in keys.items() if known.get(page) != key}
     for entry in cache.list_cache_records():
         if entry.uri in stale or entry.uri not in keys:
             cache.remove_cache(entry.pk)
-    keys_file.parent.mkdir(parents=True, exist_ok=True)
-    keys_file.write_text(json.dumps(keys, indent=1), encoding="utf-8")
+    write_text(keys_file, to_json(keys, indent=1))
 
 
 def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
@@ -154,7 +154,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
     dict
         Page to traceback, for each notebook that failed.
     """
-    cache = get_cache(cache_folder)
+    cache = open_cache(cache_folder)
     pages = sorted(notebooks(book), key=_imports, reverse=True)  # those that compute most first
     drop_changed(cache, pages, cache_folder / "pages.json")
     uris = [str(page) for page in pages]
@@ -170,6 +170,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
     if again := sorted({*result.succeeded} - stored | {*errored}):
         second = run.run_and_cache(filter_uris=again, timeout=timeout)
         excepted, errored = [*excepted, *second.excepted], [*second.errored]
+    seal(cache, cache_folder)
     return {
         str(Path(uri).relative_to(book)): _ANSI.sub(
             "", cache.get_project_record(uri).traceback or "could not be read or started"

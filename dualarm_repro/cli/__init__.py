@@ -6,6 +6,7 @@ while a command is being imported is answered.
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import sys
@@ -29,6 +30,7 @@ def main() -> None:
     be run, 130 when interrupted."""
     with _interruptions() as seen:
         try:
+            _write_what_the_encoding_lacks()
             code = _answer(sys.argv[1:])
             sys.stdout.flush()
         except BaseException as error:  # one place decides how each of them ends
@@ -37,6 +39,13 @@ def main() -> None:
             code = _said("interrupted", INTERRUPTED)
             exec("")  # else an interrupted exec() of a library ends the interpreter by the signal
     sys.exit(code)
+
+
+def _write_what_the_encoding_lacks() -> None:
+    """Letters that a terminal or pipe has no code for are written as escapes, not refused."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() != "utf-8":
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _answer(arguments: list[str]) -> int:
