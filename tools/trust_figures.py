@@ -1,6 +1,7 @@
 """Write the figures of what was tried against the project into ``tests/README.md``.
 
-They come from ``data/results`` and from the tests themselves, and none is typed.
+They come from ``data/results`` and from the tests themselves, and none is typed;
+``data/results/tried.json`` holds them for the page of the book.
 """
 
 from __future__ import annotations
@@ -13,9 +14,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from dualarm_repro.ledger.files import to_json, write_text
+
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "data" / "results"
 PAGE = ROOT / "tests" / "README.md"
+TRIED = RESULTS / "tried.json"
 BEGIN, END = "<!-- figures: tools/trust_figures.py -->", "<!-- end of the figures -->"
 #: Examples of a property that asks for no other number, hypothesis' own choice.
 EXAMPLES = 100
@@ -114,9 +118,12 @@ def main(arguments: list[str] | None = None) -> int:
     asked = parser.parse_args(arguments)
     before = PAGE.read_text(encoding="utf-8")
     after = with_figures(before, figures())
+    stored = to_json({"rows": [list(row) for row in rows(RESULTS, PAGE.parent)]})
     if asked.check:
-        return int(before != after)
-    PAGE.write_text(after, encoding="utf-8")
+        same = TRIED.is_file() and TRIED.read_text(encoding="utf-8") == stored
+        return int(before != after or not same)
+    write_text(PAGE, after)
+    write_text(TRIED, stored)
     return 0
 
 

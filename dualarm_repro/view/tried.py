@@ -1,0 +1,35 @@
+"""The figures of what was tried against the project, as stored: no sentence without its number."""
+
+from __future__ import annotations
+
+import json
+
+import pandas as pd
+
+from ..datafiles import data_path
+from .cell_table import table
+from .page import Page
+
+#: Columns of the table.
+HEAD = ("tried", "number", "outcome")
+
+
+def tried_page() -> Page:
+    """How much was tried, by its kind, and how it ended; what did not survive by name."""
+    path = data_path("results", "tried.json")
+    if not path.is_file():
+        return Page("<p>Nothing is stored; <code>make trust</code> runs it.</p>")
+    found = json.loads(path.read_text(encoding="utf-8"))
+    return table(pd.DataFrame(found["rows"], columns=list(HEAD)))
+
+
+def lost_page() -> Page:
+    """The faults that something did not survive, with how often."""
+    path = data_path("results", "faults.json")
+    if not path.is_file():
+        return Page("<p>No faults are stored.</p>")
+    found = json.loads(path.read_text(encoding="utf-8"))
+    if not found["lost"]:
+        number = sum(counts["tried"] for counts in found["counts"].values())
+        return Page(f"<p>All {number} faults were survived.</p>")
+    return table(pd.DataFrame(list(found["lost"].items()), columns=["lost", "times"]))

@@ -1,0 +1,36 @@
+"""The page of what was tried shows what is stored, and nothing where nothing is."""
+
+import json
+
+import pytest
+
+from dualarm_repro.view import tried
+
+
+@pytest.fixture
+def results(tmp_path, monkeypatch):
+    monkeypatch.setattr(tried, "data_path", lambda *parts: tmp_path / parts[-1])
+    return tmp_path
+
+
+def test_nothing_stored_claims_nothing(results):
+    assert "make trust" in tried.tried_page().html
+    assert "survived" not in tried.lost_page().html
+
+
+def test_every_row_is_shown(results):
+    rows = [["properties", "3 with 30 examples", "each holds"], ["faults: killed", "60", "59"]]
+    (results / "tried.json").write_text(json.dumps({"rows": rows}))
+    shown = tried.tried_page().html
+    assert all(f"<td>{text}</td>" in shown for row in rows for text in row)
+
+
+def test_a_lost_fault_is_named(results):
+    stored = {"counts": {"killed": {"tried": 60, "survived": 60}}, "lost": {}}
+    (results / "faults.json").write_text(json.dumps(stored))
+    assert "All 60 faults were survived" in tried.lost_page().html
+    stored["counts"]["killed"]["survived"], stored["lost"] = 58, {"killed: plan: <half>": 2}
+    (results / "faults.json").write_text(json.dumps(stored))
+    shown = tried.lost_page().html
+    assert "killed: plan: &lt;half&gt;" in shown
+    assert "All" not in shown
