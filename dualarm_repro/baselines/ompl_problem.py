@@ -12,13 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UnsupportedArmError
+from ..errors import InputError, UnsupportedArmError
 from ..planning.planner import Ending, FoundPath, PathProblem
 
 #: Extra that brings the package.
 EXTRA = "planners"
 #: Share of the evaluations that is left for making a path shorter.
 _SHORTENING = 0.25
+#: Extent of the joint space from which on OMPL finds no share of it that is a step.
+_WIDEST = 1e9
 
 
 def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False) -> FoundPath:
@@ -41,7 +43,7 @@ def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False
     UnsupportedArmError
         OMPL is not installed.
     InputError
-        Something moves by itself.
+        Something moves by itself, or start and goal are too far apart for a share of their way.
     """
     try:
         from ompl import base, geometric, util
@@ -61,7 +63,12 @@ def solved(problem: PathProblem, kind: str, shorten: bool, optimal: bool = False
     margin = problem.margin
     setup.setStateValidityChecker(lambda s: problem.clearance(_vector(s, len(lower))) > margin)
     information = setup.getSpaceInformation()
-    fraction = problem.settings.resolution / space.getMaximumExtent()
+    extent = space.getMaximumExtent()
+    if not extent < _WIDEST:
+        expected = f"at most {_WIDEST:g} [rad, m] apart, limits and ends"
+        raise InputError(kind, "range of the joints", extent, expected)
+    # A share below 1 is demanded, also of joints whose whole range is below the resolution.
+    fraction = problem.settings.resolution / max(extent, 2.0 * problem.settings.resolution)
     information.setStateValidityCheckingResolution(fraction)
     setup.setStartAndGoalStates(*(_state(space, q) for q in (problem.start, problem.goal)))
     if optimal:

@@ -23,6 +23,9 @@ from ..settings import Positive, Settings
 
 #: Entry points of this group are planners.
 GROUP = "dualarm_repro.planners"
+#: No search leaves its ends by more [rad, m]; files state limits of 1e16, of which nothing could be
+#: drawn.
+FARTHEST = 25.0
 
 
 class PlannerSettings(Settings):
@@ -101,10 +104,13 @@ class PathProblem:
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits of the joints (nq,) [rad, m], finite and wide enough for start and goal: those of
-        a continuous joint are two turns apart, or reach to an end that lies farther."""
+        a continuous joint are two turns apart, or reach to an end that lies farther; those of any
+        other are no more than ``FARTHEST`` away from both ends."""
         lower, upper = self.scene.limits
         ends = np.array([self.start, self.goal])
-        return np.minimum(lower, ends.min(axis=0)), np.maximum(upper, ends.max(axis=0))
+        first, last = ends.min(axis=0), ends.max(axis=0)
+        lower, upper = np.maximum(lower, first - FARTHEST), np.minimum(upper, last + FARTHEST)
+        return np.minimum(lower, first), np.maximum(upper, last)
 
     @property
     def margin(self) -> float:

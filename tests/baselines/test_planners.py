@@ -53,6 +53,44 @@ def test_baseline_does_a_task_that_is_free(name, tmp_path):
     assert 0 < problem.evaluations <= 6000  # a sweep that has begun is finished
 
 
+_LINK = (
+    '<link name="{0}"><collision><origin xyz="0 0 0.1"/><geometry><box size="0.02 0.02 0.1"/>'
+    "</geometry></collision></link>"
+)
+_JOINT = (
+    '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
+    '<origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>'
+    '<limit lower="-{3}" upper="{3}" effort="1" velocity="1"/></joint>'
+)
+
+
+@pytest.mark.parametrize("reach", ["0.002", "1e16"])
+@pytest.mark.parametrize("name", BASELINES)
+def test_an_arm_whose_limits_are_narrower_than_the_resolution_or_as_good_as_none(
+    name, reach, tmp_path
+):
+    links = "".join(map(_LINK.format, "abc"))
+    joints = _JOINT.format("j1", "a", "b", reach) + _JOINT.format("j2", "b", "c", reach)
+    (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
+    scene = "arms: {only: {robot: stiff.urdf, start: [0.001, -0.001], goal: [-0.001, 0.002]}}"
+    problem = problem_of(tmp_path, scene, evaluations=400)
+    assert np.ptp(problem.limits, axis=0).max() < 60.0
+    plan, found = judged(name, problem)
+    assert all(one.reached for one in plan.plans.values())
+    assert found.collision_free
+
+
+def test_ends_too_far_apart_for_ompl_are_refused(tmp_path):
+    pytest.importorskip("ompl")
+    links = "".join(map(_LINK.format, "abc"))
+    joints = _JOINT.format("j1", "a", "b", "1e16") + _JOINT.format("j2", "b", "c", "1e16")
+    (tmp_path / "stiff.urdf").write_text(f'<robot name="stiff">{links}{joints}</robot>')
+    given = problem_of(tmp_path, "arms: {only: {robot: stiff.urdf, start: [0, 0], goal: [1, 0]}}")
+    problem = PathProblem(given.scene, given.start, np.array([1e15, 0.0]), given.settings)
+    with pytest.raises(InputError, match=r"range of the joints.*at most 1e\+09"):
+        BASELINES["rrt-connect"](problem)
+
+
 @pytest.mark.parametrize(
     "name", ["rrt-connect", "rrt-connect-simplified", "rrt-connect-compiled", "cbf-qp"]
 )

@@ -58,9 +58,11 @@ def test_the_key_of_a_page_follows_what_it_shows(tmp_path, monkeypatch):
     page.write_text(NOTEBOOK.format(code=shows.replace("eq02", "eq03")))
     assert prerun.page_key(page) != key
     page.write_text(NOTEBOOK.format(code=shows))
-    (tmp_path / "card.html").write_text("another template")
+    templates = tmp_path / "view" / "templates"  # what is beside it is read too
+    templates.mkdir(parents=True)
+    (templates / "card.html").write_text("another template")
     with monkeypatch.context() as patch:
-        patch.setattr(prerun, "TEMPLATES", tmp_path)
+        patch.setattr(prerun, "TEMPLATES", templates)
         assert prerun.page_key(page) != key
     read = kept.read
     monkeypatch.setattr(
