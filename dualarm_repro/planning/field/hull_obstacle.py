@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import spatial
+import scipy
 
 from ...arms import Arm
 from ...kernel import kernel
@@ -73,7 +73,7 @@ def _planar(arm: Arm) -> bool:
 
 def hull_track(points: np.ndarray) -> HullTrack:
     """Convex hulls of point sets (T, M, 3)."""
-    hulls = [spatial.ConvexHull(row) for row in points]
+    hulls = [scipy.spatial.ConvexHull(row) for row in points]
     most = max((len(hull.simplices) for hull in hulls), default=0)
     planes, triangles = np.empty((len(hulls), most, 4)), np.empty((len(hulls), most, 3, 3))
     for k, (hull, row) in enumerate(zip(hulls, points, strict=True)):

@@ -8,7 +8,7 @@ ends of the path.
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import make_smoothing_spline
+import scipy
 
 from ...errors import InputError
 
@@ -30,7 +30,9 @@ def smoothed(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarra
     """
     weights = _weights(path, smoothing, end_weight)
     samples = np.arange(len(path), dtype=float)
-    return make_smoothing_spline(samples, path, w=weights, lam=smoothing, axis=0)(samples)
+    return scipy.interpolate.make_smoothing_spline(samples, path, w=weights, lam=smoothing, axis=0)(
+        samples
+    )
 
 
 def smoothed_directly(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarray:
