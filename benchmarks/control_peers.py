@@ -24,10 +24,7 @@ def pink_step(scenario: FrozenScenario, settings: ControllerSettings) -> Step:
     from pink.tasks import FrameTask
 
     model, geometry, tips = two_arm_model(scenario)
-    tasks = [
-        FrameTask(tip, position_cost=1.0, orientation_cost=0.0, gain=DT * settings.feedback)
-        for tip in tips
-    ]
+    tasks = [FrameTask(tip, position_cost=1.0, orientation_cost=0.0, gain=1.0) for tip in tips]
     barrier = SelfCollisionBarrier(
         PINK_PAIRS, gain=settings.damper_gain, safe_displacement_gain=0.0, d_min=settings.inner
     )
@@ -49,11 +46,10 @@ def pink_step(scenario: FrozenScenario, settings: ControllerSettings) -> Step:
     def step(q: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         configuration.update(q)
         for task, goal, rate in zip(tasks, position, velocity, strict=True):
-            # The task's error is corrected by its gain; the rate of the path is added to the goal.
-            shifted = goal + rate / settings.feedback
-            task.set_target(
-                pin.SE3(configuration.get_transform_frame_to_world(task.frame).rotation, shifted)
-            )
+            # The place after one step: of a target farther away the task sees a turn as a shift.
+            pose = configuration.get_transform_frame_to_world(task.frame)
+            way = DT * (rate + settings.feedback * (goal - pose.translation))
+            task.set_target(pin.SE3(pose.rotation, pose.translation + way))
         return pink.solve_ik(
             *(configuration, tasks, DT),
             solver="daqp",
@@ -91,7 +87,7 @@ def mink_step(scenario: FrozenScenario, settings: ControllerSettings) -> Step:
     avoidance = mink.CollisionAvoidanceLimit(
         model,
         [(left, right)],
-        gain=DT * settings.damper_gain,
+        gain=DT * DT * settings.damper_gain,  # its bound divides by the step what it holds a way to
         minimum_distance_from_collisions=settings.inner,
         collision_detection_distance=settings.outer,
     )

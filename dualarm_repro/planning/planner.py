@@ -104,8 +104,8 @@ class PathProblem:
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits of the joints (nq,) [rad, m], finite and wide enough for start and goal: those of
-        a continuous joint are two turns apart, or reach to an end that lies farther; those of any
-        other are no more than ``FARTHEST`` away from both ends."""
+        a continuous joint are two turns apart, or reach to an end that lies farther; none is more
+        than ``FARTHEST`` away from both ends."""
         lower, upper = self.scene.limits
         ends = np.array([self.start, self.goal])
         first, last = ends.min(axis=0), ends.max(axis=0)

@@ -12,6 +12,7 @@ from dualarm_repro.baselines import BASELINES
 from dualarm_repro.errors import DualArmError, InputError
 from dualarm_repro.planning import FoundPath, PathProblem, PlannerSettings, truth
 from dualarm_repro.planning.path_plan import run_planner
+from dualarm_repro.planning.planner import FARTHEST
 from dualarm_repro.planning.tasks.task_file import load_tasks
 from dualarm_repro.scene import MovingShape, PlacedArm, PosePath, Scene, Sphere, distances
 from dualarm_repro.settings import Settings
@@ -221,14 +222,15 @@ def test_margin_is_half_of_what_the_ends_have(tmp_path):
 
 
 def test_bounds_of_a_search_hold_its_ends_and_are_finite():
-    """A joint that turns for ever is searched over two turns, or as far as an end lies."""
+    """A joint that turns for ever is searched over two turns, or as far as an end lies, and none
+    farther from its ends than FARTHEST."""
     scene = Scene([PlacedArm("arm", load_arm("kinova-j2s6s200"))])
     arm = scene.arms[0].arm
     start = np.array([40.0, 2.9, 1.3, 0.0, 1.4, 0.0])
     problem = PathProblem(scene, start, start + 0.1)
     lower, upper = problem.limits
     assert np.isfinite([lower, upper]).all()
-    assert (lower[0], upper[0]) == (-2 * np.pi, 40.1)
+    assert (lower[0], upper[0]) == (40.0 - FARTHEST, 40.1)
     assert (lower[3], upper[3]) == (-2 * np.pi, 2 * np.pi)
     still = ~arm.turns_for_ever
     assert lower[still].tolist() == arm.lower[still].tolist()

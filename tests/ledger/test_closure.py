@@ -2,6 +2,7 @@
 
 import shutil
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -37,10 +38,16 @@ def studied():
     return {name: [module_of(study.compute)] for name, study in load().studies.items()}
 
 
+@cache
+def undisturbed(folder):
+    """Digests of all studies before anything is edited."""
+    return digests(folder, studied())
+
+
 def edited(folder, module, change):
-    """Digests of all studies before and after one file is edited."""
+    """The studies whose digest one edited file changes; the file is as before afterwards."""
     path = folder.joinpath(*module.split(".")).with_suffix(".py")
-    text, before = path.read_text(encoding="utf-8"), digests(folder, studied())
+    text, before = path.read_text(encoding="utf-8"), undisturbed(folder)
     path.write_text(change(text), encoding="utf-8")
     try:
         after = digests(folder, studied())

@@ -188,7 +188,7 @@ def test_normal_is_continuous_through_contact_and_penetration():
 
 
 def test_what_is_no_shape_is_refused():
-    with pytest.raises(InputError, match="signed_distance: b = 'wall': expected a Sphere"):
+    with pytest.raises(InputError, match="signed_distance: shape = 'wall': expected Sphere"):
         signed_distance(Sphere((0, 0, 0), 1), "wall")
 
 
