@@ -73,7 +73,7 @@ class Generated:
         return made
 
     def rows(self, q: np.ndarray, constants: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-        """Values (N, *shape) for finite q (N, n).
+        """Values of one shape each for finite q (N, n), as (N, ...).
 
         Angles so far from 0 that the fast sine is not exact go through the plain function.
         """

@@ -20,7 +20,7 @@ ROUNDING = 1e-15
 
 class Structure(NamedTuple):
     """Of every constant C_0 ... C_n its rotation (row by row) and its translation as terms, and
-    whether each joint slides; the terms ``k0``, ``k1`` ... stand for :func:`constants`."""
+    whether each joint slides; the terms ``k0``, ``k1`` ... stand for :class:`Constants`."""
 
     rotations: tuple[tuple[Vector, Vector, Vector], ...]
     translations: tuple[Vector, ...]
