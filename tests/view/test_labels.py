@@ -2,15 +2,18 @@
 
 import re
 from io import BytesIO
+from itertools import combinations
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from dualarm_repro.ledger.finding import entitled, finding_of
 from dualarm_repro.scene import Box
 from dualarm_repro.view.card import figure_html
-from dualarm_repro.view.labels import name_ends, name_points
+from dualarm_repro.view.labels import _apart, name_ends, name_points, push_apart
 from dualarm_repro.view.legibility import faults
 from dualarm_repro.view.style import BLUE, ORANGE, WIDTH, house_style, ink
 from dualarm_repro.view.theme import lean, with_dark_rules
@@ -131,3 +134,65 @@ def test_dark_rules_reach_the_colours_that_are_drawn(ax):
         assert selector in svg.split("</style>", 1)[1]
         assert re.search(rf'\[style\*="{selector}"\]{{[^}}]*!important}}', rules)
     assert rules.startswith(' type="text/css">@media (prefers-color-scheme: dark)')
+
+
+@pytest.mark.parametrize(
+    ("heights", "at"),
+    [([0.2, 0.4, 0.8], 0.8), ([0.2, 0.7, 5.0], 0.7), ([0.2, 0.6, np.nan], 0.6),
+     ([0.9, 0.3, -2.0], 0.3), ([3.0, 4.0, 5.0], 1.0)],
+)  # fmt: skip
+def test_a_name_stands_at_the_last_point_that_is_seen(ax, heights, at):
+    ax.plot([0.0, 0.5, 1.0], heights, label="curve")
+    ax.set(xlim=(0, 1), ylim=(0, 1))
+    name_ends(ax)
+    (text,) = ax.texts
+    assert text.get_position()[1] == pytest.approx(at)
+    assert text.get_position()[0] > 1.0, "beyond the axes"
+
+
+def test_a_name_at_a_logarithmic_axis_stands_where_its_curve_ends(ax):
+    ax.plot([0, 1], [1.0, 100.0], label="curve", color=ORANGE)
+    ax.plot([0, 1], [1.0, 10.0], label="_unnamed")
+    ax.set(yscale="log", ylim=(1.0, 1e4))
+    name_ends(ax)
+    (text,) = ax.texts
+    assert text.get_position()[1] == pytest.approx(0.5)
+    assert text.get_color() == ink(ORANGE)
+
+
+HEIGHTS = st.lists(st.floats(0.3, 0.7), min_size=1, max_size=8)
+
+
+@settings(max_examples=50)
+@given(HEIGHTS, st.lists(st.sampled_from([0.02, 0.04]), min_size=8, max_size=8))
+def test_heights_of_names_are_apart_in_order_and_inside(wanted, rows):
+    """Eight names of at most 0.04 that end in the middle have room to both sides."""
+    sizes = np.array(rows[: len(wanted)])
+    found = _apart(np.array(wanted), sizes)
+    order = np.argsort(wanted, kind="stable")
+    gaps = np.diff(found[order])
+    need = 0.5 * (sizes[order][1:] + sizes[order][:-1])
+    assert (gaps >= need - 1e-4).all()
+    assert found.min() >= -1e-9
+    assert found.max() <= 1.0 + 1e-9
+    if len(wanted) == 1:
+        assert found[0] == wanted[0]
+
+
+@pytest.mark.parametrize("names", [2, 6])
+def test_names_move_and_what_they_name_does_not(ax, names):
+    points = {f"name {k}": np.array([0.5, 0.5 + 0.002 * k]) for k in range(names)}
+    texts = name_points(ax, points)
+    for text, point in zip(texts, points.values(), strict=True):
+        np.testing.assert_array_equal(text.xy, point)
+    boxes = [plt.Text.get_window_extent(text) for text in texts]
+    assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
+    ends = [ax.transData.transform(point) for point in points.values()]
+    assert not any(box.contains(*end) for box in boxes for end in ends)
+
+
+def test_names_that_do_not_meet_stay(ax):
+    points = {"left": np.array([0.2, 0.5]), "right": np.array([0.8, 0.5])}
+    assert [text.xyann for text in name_points(ax, points, offset=(0, 14))] == [
+        pytest.approx((0, 14)), pytest.approx((0, 14))]  # fmt: skip
+    push_apart(ax.figure, [])
