@@ -2,7 +2,7 @@
 
 import dataclasses
 import signal
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from enum import Enum
 
 import numpy as np
@@ -11,6 +11,8 @@ from dualarm_repro.errors import DualArmError
 
 #: Longest processor time of a call [s], and longest line of an error.
 PATIENCE, LINE = 10.0, 6000
+#: The same where it compiles first.
+COMPILED = 120.0
 
 
 class Hang(BaseException):
@@ -53,6 +55,19 @@ def holds_nan(value, depth=4):
     return False
 
 
+def _answer(call):
+    """What a call gives. One that takes too long may have compiled for arguments of a new type: it
+    is given time for that, once, and then has to be quick."""
+    try:
+        with patience():
+            return call()
+    except Hang:
+        with suppress(DualArmError), patience(COMPILED):
+            call()
+        with patience():
+            return call()
+
+
 def judged(call, nan_given=False, nan_allowed=False):
     """``("refused" | "answered", "")``, or ``("defect", what)``.
 
@@ -60,8 +75,7 @@ def judged(call, nan_given=False, nan_allowed=False):
     meaning in the answers of that call (``nan_allowed``).
     """
     try:
-        with patience():
-            result = call()
+        result = _answer(call)
     except DualArmError as error:
         try:
             text = str(error)
