@@ -10,11 +10,12 @@ import argparse
 import ast
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 from dualarm_repro.ledger.files import to_json, write_text
+from dualarm_repro.view.tried import HEAD
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "data" / "results"
@@ -89,11 +90,10 @@ def rows(results: Path, tests: Path) -> Iterator[tuple[str, str, str]]:
         yield "branches of the library", str(coverage["branches"]), f"{share:.1%} reached"
 
 
-def figures(results: Path = RESULTS, tests: Path = PAGE.parent) -> str:
+def figures(found: Iterable[tuple[str, str, str]]) -> str:
     """The table of `rows` in Markdown."""
-    lines = ["| tried | number | outcome |", "|---|---|---|"]
-    lines += [f"| {what} | {number} | {end} |" for what, number, end in rows(results, tests)]
-    return "\n".join(lines)
+    head, *lines = [f"| {' | '.join(row)} |" for row in (HEAD, *found)]
+    return "\n".join([head, f"|{'---|' * len(HEAD)}", *lines])
 
 
 def with_figures(text: str, table: str) -> str:
@@ -116,9 +116,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing")
     asked = parser.parse_args(arguments)
-    before = PAGE.read_text(encoding="utf-8")
-    after = with_figures(before, figures())
-    stored = to_json({"rows": [list(row) for row in rows(RESULTS, PAGE.parent)]})
+    before, found = PAGE.read_text(encoding="utf-8"), list(rows(RESULTS, PAGE.parent))
+    after, stored = with_figures(before, figures(found)), to_json({"rows": found})
     if asked.check:
         same = TRIED.is_file() and TRIED.read_text(encoding="utf-8") == stored
         return int(before != after or not same)

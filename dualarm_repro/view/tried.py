@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pandas as pd
 
@@ -16,20 +17,23 @@ HEAD = ("tried", "number", "outcome")
 
 def tried_page() -> Page:
     """How much was tried, by its kind, and how it ended; what did not survive by name."""
-    path = data_path("results", "tried.json")
-    if not path.is_file():
+    found = _stored("tried")
+    if found is None:
         return Page("<p>Nothing is stored; <code>make trust</code> runs it.</p>")
-    found = json.loads(path.read_text(encoding="utf-8"))
     return table(pd.DataFrame(found["rows"], columns=list(HEAD)))
 
 
 def lost_page() -> Page:
     """The faults that something did not survive, with how often."""
-    path = data_path("results", "faults.json")
-    if not path.is_file():
+    found = _stored("faults")
+    if found is None:
         return Page("<p>No faults are stored.</p>")
-    found = json.loads(path.read_text(encoding="utf-8"))
     if not found["lost"]:
         number = sum(counts["tried"] for counts in found["counts"].values())
         return Page(f"<p>All {number} faults were survived.</p>")
     return table(pd.DataFrame(list(found["lost"].items()), columns=["lost", "times"]))
+
+
+def _stored(name: str) -> dict[str, Any] | None:
+    path = data_path("results", f"{name}.json")
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
