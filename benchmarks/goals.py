@@ -62,7 +62,7 @@ GOALS: dict[str, tuple[Claim, ...]] = {
     ),
     "bidirectional": (
         Claim("master plan, RRT-Connect of OMPL", _MASTER, 50.0, 140.0, _WHOLE),
-        Claim("plan of two arms, RRT-Connect of OMPL", _BOTH, 50.0, 140.0, _WHOLE),
+        Claim("plan of two arms, RRT-Connect of OMPL", _BOTH, 8.0, 20.0, _WHOLE),
     ),
     "control": (
         Claim(
