@@ -16,6 +16,7 @@ CASES = 100_000
 PARTS: dict[str, tuple[str, ...]] = {
     "fuzz": ("--cases", str(CASES), "--out", str(RESULTS / "fuzz.json")),
     "faults": (),
+    "determinism": (),
     "trust_ledger": (),
     "install_matrix": ("--resume",),
     "branch_coverage": (),

@@ -17,7 +17,10 @@ def test_a_figure_that_changes_is_noticed(tmp_path):
     (tmp_path / "faults.json").write_text(json.dumps(found))
     (tmp_path / "fuzz.json").write_text(json.dumps({"cases": {"refused": 7, "answered": 5}}))
     (tmp_path / "coverage.json").write_text(json.dumps({"branches": 8, "reached": 7}))
+    again = {"counts": {"two workers": {"items": 9, "cells": 4, "otherwise": 1}}}
+    (tmp_path / "determinism.json").write_text(json.dumps(again))
     table = trust_figures.figures(trust_figures.rows(tmp_path, tmp_path))
+    assert "| computed again: two workers | 9 items, 4 cells of studies | 1 otherwise |" in table
     assert "| faults: killed | 60 | 59 survived |" in table
     assert "| hostile inputs | 12 | 5 answered, 7 refused |" in table
     assert "| branches of the library | 8 | 87.5% reached |" in table
@@ -31,7 +34,7 @@ def test_a_figure_that_changes_is_noticed(tmp_path):
 
 def test_what_is_not_stored_is_not_claimed(tmp_path):
     table = trust_figures.figures(trust_figures.rows(tmp_path, tmp_path))
-    assert table.count(trust_figures.ABSENT) == 3
+    assert table.count(trust_figures.ABSENT) == 4
 
 
 def test_properties_are_counted_from_the_tests(tmp_path):
