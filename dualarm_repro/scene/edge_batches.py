@@ -1,0 +1,154 @@
+"""Freedom of contact of many straight joint edges, whose stretches share the SIMD lanes.
+
+As :mod:`.edge_kernels`, but an edge begins as two stretches only: a block is filled with stretches
+of other edges, so that no lane looks at what a longer stretch would have made certain. Stretches
+that are not certain are halved and wait on a stack, the shortest on top.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..kernel import kernel
+from .edge_kernels import PLACES, place_block
+from .lane_distances import LANES
+from .lane_verdicts import (
+    ball_verdict,
+    box_verdict,
+    capsules_verdict,
+    hull_verdict,
+    near_point,
+    near_spheres,
+    plane_verdict,
+    standing_verdict,
+)
+
+#: Stretches that may wait. Of the stretches of one length or shorter ones at most 2 LANES are added
+#: at a time, and none longer before fewer than LANES are left: enough for 62 halvings.
+_WAITING = 64 * LANES
+_ALL = (1 << LANES) - 1
+
+
+@kernel
+def edges_free(model, starts, ends, margin, free, looked):
+    """Whether every pair keeps more than ``margin`` [m] all along each edge (E, nq), into ``free``
+    (E,), and the number of configurations that were looked at, into ``looked`` (E,).
+
+    Where a pair keeps the margin by less than ``model.finest`` [m] the edge counts as not free.
+    """
+    edges, (capsules, joints) = len(starts), model.lever.shape
+    w, turns = np.zeros(PLACES), np.zeros((3, joints * LANES))
+    steps, placed = np.zeros((joints, LANES)), np.zeros((capsules, 6 * LANES))
+    travel, ways = np.zeros((capsules, joints + 1, LANES)), np.zeros(LANES)
+    lane, share = np.zeros(LANES, np.int64), np.zeros((LANES, 2))
+    owner, waiting = np.zeros(_WAITING, np.int64), np.zeros((_WAITING, 2))
+    for n in range(edges):
+        free[n], looked[n] = model.between_standing > margin, 0
+    begun, count = 0, 0
+    while True:
+        rows = 0
+        while rows < LANES:
+            if count == 0:
+                while begun < edges and not free[begun]:
+                    begun += 1
+                if begun == edges:
+                    break
+                for k in range(2):
+                    owner[k], waiting[k, 0], waiting[k, 1] = begun, 0.75 - 0.5 * k, 0.25
+                begun, count = begun + 1, 2
+            count -= 1
+            edge = owner[count]
+            if free[edge]:
+                lane[rows] = edge
+                share[rows, 0], share[rows, 1] = waiting[count, 0], waiting[count, 1]
+                looked[edge] += 1
+                rows += 1
+        if rows == 0:
+            return
+        for k in range(LANES):
+            row = min(k, rows - 1)
+            edge, at, half = lane[row], share[row, 0], share[row, 1]
+            for j in range(joints):
+                change = ends[edge, j] - starts[edge, j]
+                turns[0, j * LANES + k] = starts[edge, j] + at * change
+                steps[j, k] = half * abs(change)
+        set_travels(model, steps, travel)
+        place_block(model, w, turns, placed)
+        found = verdict(model, margin, travel, placed, ways)
+        for k in range(rows):
+            if found >> (LANES + k) & 1:
+                free[lane[k]] = False
+        for k in range(rows - 1, -1, -1):
+            edge = lane[k]
+            if found >> k & 1 and free[edge]:
+                widest = 0.0
+                for c in range(capsules):
+                    widest = max(widest, travel[c, 0, k])
+                if count + 2 > _WAITING or widest < model.finest:
+                    free[edge] = False
+                    continue
+                at, half = share[k, 0], 0.5 * share[k, 1]
+                for one in range(2):
+                    owner[count], waiting[count, 1] = edge, half
+                    waiting[count, 0] = at + half if one == 0 else at - half
+                    count += 1
+
+
+@kernel
+def set_travels(model, steps, travel):
+    """Way of every capsule over half a stretch by the joints from j on, ``travel[c, j]`` (LANES,)
+    [m], from the ways of the joints ``steps`` (n, LANES); of all of them also where j = 0."""
+    way = np.zeros(LANES)
+    for c in range(len(travel)):
+        way[:] = 0.0
+        for j in range(model.moved[c, 1] - 1, model.moved[c, 0] - 1, -1):
+            lever = model.lever[c, j]
+            for k in range(LANES):
+                way[k] += lever * steps[j, k]
+                travel[c, j, k] = way[k]
+        travel[c, 0] = way
+
+
+@kernel
+def _sum(a, b, out):
+    for k in range(LANES):
+        out[k] = a[k] + b[k]
+
+
+@kernel
+def verdict(model, margin, travel, ends, ways):
+    """Bits of the lanes whose stretches are not certain, and bits LANES on of those in contact."""
+    found, radius, extent = 0, model.radius, model.extent
+    for n in range(len(model.pairs)):
+        a, b, from_a, from_b = model.pairs[n]
+        _sum(travel[a, from_a], travel[b, from_b], ways)
+        apart = radius[a] + radius[b] + margin
+        near = near_spheres(ends[a], ends[b], apart + extent[a] + extent[b], ways)
+        if near:
+            bits = capsules_verdict(ends[a], ends[b], extent[a], extent[b], apart, ways)
+            found |= bits & (near | near << LANES)
+    for n in range(len(model.standing_pairs)):
+        a, b = model.standing_pairs[n]
+        apart, long = radius[a] + model.standing_radius[b] + margin, model.standing_extent[b]
+        near = near_point(ends[a], model.standing[b], apart + extent[a] + long, travel[a, 0])
+        if near:
+            if long == 0.0:
+                bits = ball_verdict(ends[a], model.standing[b], extent[a], apart, travel[a, 0])
+            else:
+                bits = standing_verdict(
+                    ends[a], model.standing[b], extent[a], long, apart, travel[a, 0]
+                )
+            found |= bits & (near | near << LANES)
+    for n in range(len(model.plane_pairs)):
+        a, b = model.plane_pairs[n]
+        found |= plane_verdict(ends[a], model.planes[b], radius[a] + margin, travel[a, 0])
+    for n in range(len(model.box_pairs)):
+        a, b = model.box_pairs[n]
+        apart = radius[a] + margin
+        found |= box_verdict(
+            ends[a], model.boxes[b], model.half[b], extent[a], apart, travel[a, 0]
+        )
+    for n in range(len(model.hull_pairs)):
+        a, b = model.hull_pairs[n]
+        found |= hull_verdict(ends[a], model.hulls, b, extent[a], radius[a] + margin, travel[a, 0])
+    return found

@@ -1,0 +1,165 @@
+"""Which of a block of configurations of different edges leave a pair uncertain, in SIMD lanes.
+
+As :mod:`.lane_distances`, but each lane has a way of its own, and a contact is told of its lane
+alone: the answer has bit k where d <= margin + ways[k], and bit LANES + k where d <= margin too.
+A lane is answered from its own numbers only, whatever is in the others, so that the answer for an
+edge does not hang on the edges beside it.
+"""
+
+from __future__ import annotations
+
+from ..kernel import inlined, kernel
+from .boxes import segment_box_distance
+from .lane_distances import LANES, _clamp, _core, _gap
+from .polytope import Polytope, segment_polytope
+from .vectors import into_frame, rotated_back
+
+_X, _Y, _Z, _U, _V, _W = (k * LANES for k in range(6))
+
+
+@inlined
+def _verdict(square, apart, way):
+    """Bits 0 and LANES of a lane from a squared distance."""
+    need = apart + way
+    contact = (1 << LANES) if square <= apart * apart else 0
+    return (1 if square <= need * need else 0) | contact
+
+
+@kernel
+def near_spheres(a, b, apart, ways):
+    """Bits of the lanes whose spheres around two capsules are not far enough from each other."""
+    near = 0
+    for k in range(LANES):
+        x, y, z = b[_X + k] - a[_X + k], b[_Y + k] - a[_Y + k], b[_Z + k] - a[_Z + k]
+        need = apart + ways[k]
+        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+    return near
+
+
+@kernel
+def near_point(a, p, apart, ways):
+    """Bits of the lanes whose sphere around the capsule is not far enough from a point."""
+    near = 0
+    for k in range(LANES):
+        x, y, z = p[0] - a[_X + k], p[1] - a[_Y + k], p[2] - a[_Z + k]
+        need = apart + ways[k]
+        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+    return near
+
+
+@kernel
+def capsules_verdict(a, b, extent_a, extent_b, apart, ways):
+    """Two capsules that both move."""
+    uu, vv, found = extent_a * extent_a, extent_b * extent_b, 0
+    for k in range(LANES):
+        square = _gap(
+            b[_X + k] - a[_X + k],
+            b[_Y + k] - a[_Y + k],
+            b[_Z + k] - a[_Z + k],
+            a[_U + k],
+            a[_V + k],
+            a[_W + k],
+            b[_U + k],
+            b[_V + k],
+            b[_W + k],
+            uu,
+            vv,
+        )
+        found |= _verdict(square, apart, ways[k]) << k
+    return found
+
+
+@kernel
+def standing_verdict(a, b, extent, extent_b, apart, ways):
+    """A capsule and one that stands, ``b`` (6,): its middle and half core."""
+    p0, p1, p2, e, f, g = b[0], b[1], b[2], b[3], b[4], b[5]
+    uu, vv, found = extent * extent, extent_b * extent_b, 0
+    for k in range(LANES):
+        x, y, z = p0 - a[_X + k], p1 - a[_Y + k], p2 - a[_Z + k]
+        u, v, w = a[_U + k], a[_V + k], a[_W + k]
+        found |= _verdict(_gap(x, y, z, u, v, w, e, f, g, uu, vv), apart, ways[k]) << k
+    return found
+
+
+@kernel
+def ball_verdict(a, b, extent, apart, ways):
+    """A capsule and a sphere that stands."""
+    p0, p1, p2 = b[0], b[1], b[2]
+    uu, found = extent * extent, 0
+    inverse = 1.0 / uu if uu > 0.0 else 0.0
+    for k in range(LANES):
+        x, y, z = p0 - a[_X + k], p1 - a[_Y + k], p2 - a[_Z + k]
+        u, v, w = a[_U + k], a[_V + k], a[_W + k]
+        s = _clamp((x * u + y * v + z * w) * inverse)
+        x, y, z = x - s * u, y - s * v, z - s * w
+        found |= _verdict(x * x + y * y + z * z, apart, ways[k]) << k
+    return found
+
+
+@kernel
+def plane_verdict(a, plane, apart, ways):
+    """A capsule and a half-space, n . x <= offset: d = n . m - |n . v| - offset - r."""
+    n0, n1, n2, offset = plane[0], plane[1], plane[2], plane[3]
+    found = 0
+    for k in range(LANES):
+        height = n0 * a[_X + k] + n1 * a[_Y + k] + n2 * a[_Z + k] - offset
+        lean = n0 * a[_U + k] + n1 * a[_V + k] + n2 * a[_W + k]
+        low = height - abs(lean) - apart
+        contact = (1 << LANES) if low <= 0.0 else 0
+        found |= ((1 if low <= ways[k] else 0) | contact) << k
+    return found
+
+
+@kernel
+def box_verdict(a, pose, half, extent, apart, ways):
+    """A capsule and a box: exactly where the sphere around the capsule does not tell."""
+    near, found = 0, 0
+    p0, p1, p2, h0, h1, h2 = pose[0, 3], pose[1, 3], pose[2, 3], half[0], half[1], half[2]
+    r00, r10, r20 = pose[0, 0], pose[1, 0], pose[2, 0]
+    r01, r11, r21 = pose[0, 1], pose[1, 1], pose[2, 1]
+    r02, r12, r22 = pose[0, 2], pose[1, 2], pose[2, 2]
+    for k in range(LANES):
+        x, y, z = a[_X + k] - p0, a[_Y + k] - p1, a[_Z + k] - p2
+        e = max(abs(r00 * x + r10 * y + r20 * z) - h0, 0.0)
+        f = max(abs(r01 * x + r11 * y + r21 * z) - h1, 0.0)
+        g = max(abs(r02 * x + r12 * y + r22 * z) - h2, 0.0)
+        need = apart + extent + ways[k]
+        near |= (1 if e * e + f * f + g * g <= need * need else 0) << k
+    if near == 0:
+        return 0
+    for k in range(LANES):
+        if near >> k & 1:
+            start, core = _core(a, k)
+            gap = segment_box_distance(
+                into_frame(pose, start), rotated_back(pose, core), (h0, h1, h2)
+            )
+            found |= _gap_verdict(gap, apart, ways[k]) << k
+    return found
+
+
+@kernel
+def hull_verdict(a, hulls, row, extent, apart, ways):
+    """A capsule and a convex hull: exactly where the spheres around both do not tell."""
+    near = near_point(a, hulls.around[row], apart + extent + hulls.around[row, 3], ways)
+    if near == 0:
+        return 0
+    first, last, found = hulls.first[row], hulls.first[row + 1], 0
+    polytope = Polytope(
+        hulls.solids.vertices[first[0] : last[0]],
+        hulls.solids.planes[first[1] : last[1]],
+        hulls.solids.corners[first[1] : last[1]],
+        hulls.solids.edges[first[2] : last[2]],
+        hulls.solids.normals[first[2] : last[2]],
+    )
+    for k in range(LANES):
+        if near >> k & 1:
+            start, core = _core(a, k)
+            gap = segment_polytope(start, core, polytope)[0]
+            found |= _gap_verdict(gap, apart, ways[k]) << k
+    return found
+
+
+@inlined
+def _gap_verdict(gap, apart, way):
+    """Bits 0 and LANES of a lane from a distance, which may be negative."""
+    return (1 if gap <= apart + way else 0) | ((1 << LANES) if gap <= apart else 0)
