@@ -98,21 +98,18 @@ def edges_free(model, starts, ends, margin, free, looked):
 def set_travels(model, steps, travel):
     """Way of every capsule over half a stretch by the joints from j on, ``travel[c, j]`` (LANES,)
     [m], from the ways of the joints ``steps`` (n, LANES); of all of them also where j = 0."""
-    way = np.zeros(LANES)
     for c in range(len(travel)):
-        way[:] = 0.0
-        for j in range(model.moved[c, 1] - 1, model.moved[c, 0] - 1, -1):
-            lever = model.lever[c, j]
-            for k in range(LANES):
-                way[k] += lever * steps[j, k]
-                travel[c, j, k] = way[k]
-        travel[c, 0] = way
+        first, after = model.moved[c]
+        for j in range(after - 1, first - 1, -1):
+            _add(travel[c, j + 1], model.lever[c, j], steps[j], travel[c, j])
+        if first > 0:
+            _add(travel[c, first], 0.0, steps[0], travel[c, 0])
 
 
 @kernel
-def _sum(a, b, out):
+def _add(a, factor, b, out):
     for k in range(LANES):
-        out[k] = a[k] + b[k]
+        out[k] = a[k] + factor * b[k]
 
 
 @kernel
@@ -121,7 +118,7 @@ def verdict(model, margin, travel, ends, ways):
     found, radius, extent = 0, model.radius, model.extent
     for n in range(len(model.pairs)):
         a, b, from_a, from_b = model.pairs[n]
-        _sum(travel[a, from_a], travel[b, from_b], ways)
+        _add(travel[a, from_a], 1.0, travel[b, from_b], ways)
         apart = radius[a] + radius[b] + margin
         near = near_spheres(ends[a], ends[b], apart + extent[a] + extent[b], ways)
         if near:

@@ -120,11 +120,10 @@ def place_block(model, w, turns, ends):
     capsule = 0
     _set_turns(turns)
     for j in range(len(model.begins)):
-        if model.slides[j]:
-            w[:_COS], w[_COS:_ROT] = 0.0, 1.0
-        else:
-            w[:_COS] = turns[1, j * LANES : (j + 1) * LANES]
-            w[_COS:_ROT] = turns[2, j * LANES : (j + 1) * LANES]
+        for k in range(LANES):
+            w[k] = 0.0 if model.slides[j] else turns[1, j * LANES + k]
+        for k in range(LANES):
+            w[_COS + k] = 1.0 if model.slides[j] else turns[2, j * LANES + k]
         if model.begins[j]:
             _begin(model.rotation[j], model.translation[j], w)
         else:
