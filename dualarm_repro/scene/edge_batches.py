@@ -15,12 +15,13 @@ from .lane_distances import LANES
 from .lane_verdicts import (
     ball_verdict,
     box_verdict,
-    capsules_verdict,
     hull_verdict,
     near_point,
     near_spheres,
     plane_verdict,
-    standing_verdict,
+    queue_capsules,
+    queue_standing,
+    queue_verdict,
 )
 
 #: Stretches that may wait. Of the stretches of one length or shorter ones at most 2 LANES are added
@@ -41,6 +42,8 @@ def edges_free(model, starts, ends, margin, free, looked):
     steps, placed = np.zeros((joints, LANES)), np.zeros((capsules, 6 * LANES))
     travel, ways = np.zeros((capsules, joints + 1, LANES)), np.zeros(LANES)
     lane, share = np.zeros(LANES, np.int64), np.zeros((LANES, 2))
+    most = len(model.pairs) + len(model.standing_pairs) + 1
+    queue, lanes = np.zeros((most, 13, LANES)), np.zeros((most, LANES), np.int64)
     owner, waiting = np.zeros(_WAITING, np.int64), np.zeros((_WAITING, 2))
     for n in range(edges):
         free[n], looked[n] = model.between_standing > margin, 0
@@ -74,7 +77,7 @@ def edges_free(model, starts, ends, margin, free, looked):
                 steps[j, k] = half * abs(change)
         set_travels(model, steps, travel)
         place_block(model, w, turns, placed)
-        found = verdict(model, margin, travel, placed, ways)
+        found = verdict(model, margin, travel, placed, ways, queue, lanes)
         for k in range(rows):
             if found >> (LANES + k) & 1:
                 free[lane[k]] = False
@@ -113,29 +116,31 @@ def _add(a, factor, b, out):
 
 
 @kernel
-def verdict(model, margin, travel, ends, ways):
+def verdict(model, margin, travel, ends, ways, queue, lanes):
     """Bits of the lanes whose stretches are not certain, and bits LANES on of those in contact."""
-    found, radius, extent = 0, model.radius, model.extent
+    found, count, radius, extent = 0, 0, model.radius, model.extent
     for n in range(len(model.pairs)):
         a, b, from_a, from_b = model.pairs[n]
         _add(travel[a, from_a], 1.0, travel[b, from_b], ways)
-        apart = radius[a] + radius[b] + margin
-        near = near_spheres(ends[a], ends[b], apart + extent[a] + extent[b], ways)
+        apart, far = radius[a] + radius[b] + margin, extent[a] + extent[b]
+        near = near_spheres(ends[a], ends[b], apart + far, ways)
         if near:
-            bits = capsules_verdict(ends[a], ends[b], extent[a], extent[b], apart, ways)
-            found |= bits & (near | near << LANES)
+            count = queue_capsules(
+                *(queue, lanes, count, near, ends[a], ends[b], extent[a], extent[b], apart, ways)
+            )
     for n in range(len(model.standing_pairs)):
         a, b = model.standing_pairs[n]
         apart, long = radius[a] + model.standing_radius[b] + margin, model.standing_extent[b]
-        near = near_point(ends[a], model.standing[b], apart + extent[a] + long, travel[a, 0])
+        way, stands = travel[a, 0], model.standing[b]
+        if long == 0.0:
+            found |= ball_verdict(ends[a], stands, extent[a], apart, way)
+            continue
+        near = near_point(ends[a], stands, apart + extent[a] + long, way)
         if near:
-            if long == 0.0:
-                bits = ball_verdict(ends[a], model.standing[b], extent[a], apart, travel[a, 0])
-            else:
-                bits = standing_verdict(
-                    ends[a], model.standing[b], extent[a], long, apart, travel[a, 0]
-                )
-            found |= bits & (near | near << LANES)
+            count = queue_standing(
+                *(queue, lanes, count, near, ends[a], stands, extent[a], long, apart, way)
+            )
+    found |= queue_verdict(queue, lanes, count)
     for n in range(len(model.plane_pairs)):
         a, b = model.plane_pairs[n]
         found |= plane_verdict(ends[a], model.planes[b], radius[a] + margin, travel[a, 0])

@@ -8,6 +8,12 @@ edge does not hang on the edges beside it.
 
 from __future__ import annotations
 
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
 from ..kernel import inlined, kernel
 from .boxes import segment_box_distance
 from .lane_distances import LANES, _clamp, _core, _gap
@@ -15,6 +21,17 @@ from .polytope import Polytope, segment_polytope
 from .vectors import into_frame, rotated_back
 
 _X, _Y, _Z, _U, _V, _W = (k * LANES for k in range(6))
+
+
+def _lowest_bit(context: Any, bits: Any) -> Any:
+    def built(_: Any, builder: Any, __: Any, parts: Any) -> Any:
+        return builder.cttz(parts[0], ir.Constant(ir.IntType(1), 1))
+
+    return types.int64(types.int64), built
+
+
+#: Number of the lowest bit of an integer that is not 0.
+_lowest: Any = intrinsic(_lowest_bit)
 
 
 @inlined
@@ -48,36 +65,69 @@ def near_point(a, p, apart, ways):
 
 
 @kernel
-def capsules_verdict(a, b, extent_a, extent_b, apart, ways):
-    """Two capsules that both move."""
-    uu, vv, found = extent_a * extent_a, extent_b * extent_b, 0
-    for k in range(LANES):
-        square = _gap(
-            b[_X + k] - a[_X + k],
-            b[_Y + k] - a[_Y + k],
-            b[_Z + k] - a[_Z + k],
-            a[_U + k],
-            a[_V + k],
-            a[_W + k],
-            b[_U + k],
-            b[_V + k],
-            b[_W + k],
-            uu,
-            vv,
-        )
-        found |= _verdict(square, apart, ways[k]) << k
+def queue_capsules(queue, owner, count, near, a, b, extent_a, extent_b, apart, ways):
+    """Put the lanes ``near`` of two capsules that move at the end of a queue (Q, 13, LANES) whose
+    ``owner`` (Q, LANES) are the lanes; returns the new length."""
+    uu, vv = extent_a * extent_a, extent_b * extent_b
+    while near:
+        k, i = _lowest(near), count % LANES
+        row = queue[count // LANES]
+        for r in range(3):
+            row[r, i] = b[r * LANES + k] - a[r * LANES + k]
+            row[3 + r, i] = a[(3 + r) * LANES + k]
+            row[6 + r, i] = b[(3 + r) * LANES + k]
+        row[9, i], row[10, i], row[11, i], row[12, i] = uu, vv, apart, ways[k]
+        owner[count // LANES, i] = k
+        near, count = near & (near - 1), count + 1
+    return count
+
+
+@kernel
+def queue_standing(queue, owner, count, near, a, b, extent_a, extent_b, apart, ways):
+    """The same for a capsule and one that stands, ``b`` (6,): its middle and half core."""
+    uu, vv = extent_a * extent_a, extent_b * extent_b
+    while near:
+        k, i = _lowest(near), count % LANES
+        row = queue[count // LANES]
+        for r in range(3):
+            row[r, i] = b[r] - a[r * LANES + k]
+            row[3 + r, i] = a[(3 + r) * LANES + k]
+            row[6 + r, i] = b[3 + r]
+        row[9, i], row[10, i], row[11, i], row[12, i] = uu, vv, apart, ways[k]
+        owner[count // LANES, i] = k
+        near, count = near & (near - 1), count + 1
+    return count
+
+
+@kernel
+def queue_verdict(queue, owner, count):
+    """Of the first ``count`` entries of a queue, into the bits of their lanes."""
+    found = 0
+    for i in range(count, -(-count // LANES) * LANES):
+        owner[i // LANES, i % LANES] = 2 * LANES  # bits that are no lane's
+    for n in range(-(-count // LANES)):
+        found |= _row_verdict(queue[n].reshape(-1), owner[n])
     return found
 
 
 @kernel
-def standing_verdict(a, b, extent, extent_b, apart, ways):
-    """A capsule and one that stands, ``b`` (6,): its middle and half core."""
-    p0, p1, p2, e, f, g = b[0], b[1], b[2], b[3], b[4], b[5]
-    uu, vv, found = extent * extent, extent_b * extent_b, 0
+def _row_verdict(q, owner):
+    found = 0
     for k in range(LANES):
-        x, y, z = p0 - a[_X + k], p1 - a[_Y + k], p2 - a[_Z + k]
-        u, v, w = a[_U + k], a[_V + k], a[_W + k]
-        found |= _verdict(_gap(x, y, z, u, v, w, e, f, g, uu, vv), apart, ways[k]) << k
+        square = _gap(
+            q[k],
+            q[LANES + k],
+            q[2 * LANES + k],
+            q[3 * LANES + k],
+            q[4 * LANES + k],
+            q[5 * LANES + k],
+            q[6 * LANES + k],
+            q[7 * LANES + k],
+            q[8 * LANES + k],
+            q[9 * LANES + k],
+            q[10 * LANES + k],
+        )
+        found |= _verdict(square, q[11 * LANES + k], q[12 * LANES + k]) << owner[k]
     return found
 
 
