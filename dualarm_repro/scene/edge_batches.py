@@ -16,8 +16,8 @@ from .lane_verdicts import (
     ball_verdict,
     box_verdict,
     hull_verdict,
-    near_point,
     near_spheres,
+    near_standing,
     plane_verdict,
     queue_capsules,
     queue_standing,
@@ -40,7 +40,7 @@ def edges_free(model, starts, ends, margin, free, looked):
     edges, (capsules, joints) = len(starts), model.lever.shape
     w, turns = np.zeros(PLACES), np.zeros((3, joints * LANES))
     steps, placed = np.zeros((joints, LANES)), np.zeros((capsules, 6 * LANES))
-    travel, ways = np.zeros((capsules, joints + 1, LANES)), np.zeros(LANES)
+    travel = np.zeros((capsules, joints + 1, LANES))
     lane, share = np.zeros(LANES, np.int64), np.zeros((LANES, 2))
     most = len(model.pairs) + len(model.standing_pairs) + 1
     queue, lanes = np.zeros((most, 13, LANES)), np.zeros((most, LANES), np.int64)
@@ -77,7 +77,7 @@ def edges_free(model, starts, ends, margin, free, looked):
                 steps[j, k] = half * abs(change)
         set_travels(model, steps, travel)
         place_block(model, w, turns, placed)
-        found = verdict(model, margin, travel, placed, ways, queue, lanes)
+        found = verdict(model, margin, travel, placed, queue, lanes)
         for k in range(rows):
             if found >> (LANES + k) & 1:
                 free[lane[k]] = False
@@ -116,29 +116,29 @@ def _add(a, factor, b, out):
 
 
 @kernel
-def verdict(model, margin, travel, ends, ways, queue, lanes):
+def verdict(model, margin, travel, ends, queue, lanes):
     """Bits of the lanes whose stretches are not certain, and bits LANES on of those in contact."""
     found, count, radius, extent = 0, 0, model.radius, model.extent
     for n in range(len(model.pairs)):
         a, b, from_a, from_b = model.pairs[n]
-        _add(travel[a, from_a], 1.0, travel[b, from_b], ways)
         apart, far = radius[a] + radius[b] + margin, extent[a] + extent[b]
-        near = near_spheres(ends[a], ends[b], apart + far, ways)
+        near = near_spheres(ends, a, b, apart + far, travel, from_a, from_b)
         if near:
+            squares = extent[a] * extent[a], extent[b] * extent[b]
             count = queue_capsules(
-                *(queue, lanes, count, near, ends[a], ends[b], extent[a], extent[b], apart, ways)
+                queue, lanes, count, near, ends, a, b, *squares, apart, travel, from_a, from_b
             )
     for n in range(len(model.standing_pairs)):
         a, b = model.standing_pairs[n]
         apart, long = radius[a] + model.standing_radius[b] + margin, model.standing_extent[b]
-        way, stands = travel[a, 0], model.standing[b]
         if long == 0.0:
-            found |= ball_verdict(ends[a], stands, extent[a], apart, way)
+            found |= ball_verdict(ends, a, model.standing, b, extent[a], apart, travel)
             continue
-        near = near_point(ends[a], stands, apart + extent[a] + long, way)
+        near = near_standing(ends, a, model.standing, b, apart + extent[a] + long, travel)
         if near:
+            squares = extent[a] * extent[a], long * long
             count = queue_standing(
-                *(queue, lanes, count, near, ends[a], stands, extent[a], long, apart, way)
+                queue, lanes, count, near, ends, a, model.standing, b, *squares, apart, travel
             )
     found |= queue_verdict(queue, lanes, count)
     for n in range(len(model.plane_pairs)):

@@ -43,12 +43,27 @@ def _verdict(square, apart, way):
 
 
 @kernel
-def near_spheres(a, b, apart, ways):
+def near_spheres(ends, a, b, apart, travel, from_a, from_b):
     """Bits of the lanes whose spheres around two capsules are not far enough from each other."""
     near = 0
     for k in range(LANES):
-        x, y, z = b[_X + k] - a[_X + k], b[_Y + k] - a[_Y + k], b[_Z + k] - a[_Z + k]
-        need = apart + ways[k]
+        x = ends[b, _X + k] - ends[a, _X + k]
+        y = ends[b, _Y + k] - ends[a, _Y + k]
+        z = ends[b, _Z + k] - ends[a, _Z + k]
+        need = apart + (travel[a, from_a, k] + travel[b, from_b, k])
+        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+    return near
+
+
+@kernel
+def near_standing(ends, a, stands, b, apart, travel):
+    """The same of a capsule and one that stands."""
+    near = 0
+    for k in range(LANES):
+        x = stands[b, 0] - ends[a, _X + k]
+        y = stands[b, 1] - ends[a, _Y + k]
+        z = stands[b, 2] - ends[a, _Z + k]
+        need = apart + travel[a, 0, k]
         near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
     return near
 
@@ -65,36 +80,34 @@ def near_point(a, p, apart, ways):
 
 
 @kernel
-def queue_capsules(queue, owner, count, near, a, b, extent_a, extent_b, apart, ways):
+def queue_capsules(queue, owner, count, near, ends, a, b, square_a, square_b, apart, travel, from_a, from_b):
     """Put the lanes ``near`` of two capsules that move at the end of a queue (Q, 13, LANES) whose
     ``owner`` (Q, LANES) are the lanes; returns the new length."""
-    uu, vv = extent_a * extent_a, extent_b * extent_b
     while near:
-        k, i = _lowest(near), count % LANES
-        row = queue[count // LANES]
+        k, n, i = _lowest(near), count // LANES, count % LANES
         for r in range(3):
-            row[r, i] = b[r * LANES + k] - a[r * LANES + k]
-            row[3 + r, i] = a[(3 + r) * LANES + k]
-            row[6 + r, i] = b[(3 + r) * LANES + k]
-        row[9, i], row[10, i], row[11, i], row[12, i] = uu, vv, apart, ways[k]
-        owner[count // LANES, i] = k
+            queue[n, r, i] = ends[b, r * LANES + k] - ends[a, r * LANES + k]
+            queue[n, 3 + r, i] = ends[a, (3 + r) * LANES + k]
+            queue[n, 6 + r, i] = ends[b, (3 + r) * LANES + k]
+        queue[n, 9, i], queue[n, 10, i] = square_a, square_b
+        queue[n, 11, i], queue[n, 12, i] = apart, travel[a, from_a, k] + travel[b, from_b, k]
+        owner[n, i] = k
         near, count = near & (near - 1), count + 1
     return count
 
 
 @kernel
-def queue_standing(queue, owner, count, near, a, b, extent_a, extent_b, apart, ways):
-    """The same for a capsule and one that stands, ``b`` (6,): its middle and half core."""
-    uu, vv = extent_a * extent_a, extent_b * extent_b
+def queue_standing(queue, owner, count, near, ends, a, stands, b, square_a, square_b, apart, travel):
+    """The same for a capsule and one that stands, ``stands[b]``: its middle and half core."""
     while near:
-        k, i = _lowest(near), count % LANES
-        row = queue[count // LANES]
+        k, n, i = _lowest(near), count // LANES, count % LANES
         for r in range(3):
-            row[r, i] = b[r] - a[r * LANES + k]
-            row[3 + r, i] = a[(3 + r) * LANES + k]
-            row[6 + r, i] = b[3 + r]
-        row[9, i], row[10, i], row[11, i], row[12, i] = uu, vv, apart, ways[k]
-        owner[count // LANES, i] = k
+            queue[n, r, i] = stands[b, r] - ends[a, r * LANES + k]
+            queue[n, 3 + r, i] = ends[a, (3 + r) * LANES + k]
+            queue[n, 6 + r, i] = stands[b, 3 + r]
+        queue[n, 9, i], queue[n, 10, i] = square_a, square_b
+        queue[n, 11, i], queue[n, 12, i] = apart, travel[a, 0, k]
+        owner[n, i] = k
         near, count = near & (near - 1), count + 1
     return count
 
@@ -106,43 +119,43 @@ def queue_verdict(queue, owner, count):
     for i in range(count, -(-count // LANES) * LANES):
         owner[i // LANES, i % LANES] = 2 * LANES  # bits that are no lane's
     for n in range(-(-count // LANES)):
-        found |= _row_verdict(queue[n].reshape(-1), owner[n])
+        found |= _row_verdict(queue, owner, n)
     return found
 
 
 @kernel
-def _row_verdict(q, owner):
+def _row_verdict(queue, owner, n):
     found = 0
     for k in range(LANES):
         square = _gap(
-            q[k],
-            q[LANES + k],
-            q[2 * LANES + k],
-            q[3 * LANES + k],
-            q[4 * LANES + k],
-            q[5 * LANES + k],
-            q[6 * LANES + k],
-            q[7 * LANES + k],
-            q[8 * LANES + k],
-            q[9 * LANES + k],
-            q[10 * LANES + k],
+            queue[n, 0, k],
+            queue[n, 1, k],
+            queue[n, 2, k],
+            queue[n, 3, k],
+            queue[n, 4, k],
+            queue[n, 5, k],
+            queue[n, 6, k],
+            queue[n, 7, k],
+            queue[n, 8, k],
+            queue[n, 9, k],
+            queue[n, 10, k],
         )
-        found |= _verdict(square, q[11 * LANES + k], q[12 * LANES + k]) << owner[k]
+        found |= _verdict(square, queue[n, 11, k], queue[n, 12, k]) << owner[n, k]
     return found
 
 
 @kernel
-def ball_verdict(a, b, extent, apart, ways):
+def ball_verdict(ends, a, stands, b, extent, apart, travel):
     """A capsule and a sphere that stands."""
-    p0, p1, p2 = b[0], b[1], b[2]
+    p0, p1, p2 = stands[b, 0], stands[b, 1], stands[b, 2]
     uu, found = extent * extent, 0
     inverse = 1.0 / uu if uu > 0.0 else 0.0
     for k in range(LANES):
-        x, y, z = p0 - a[_X + k], p1 - a[_Y + k], p2 - a[_Z + k]
-        u, v, w = a[_U + k], a[_V + k], a[_W + k]
+        x, y, z = p0 - ends[a, _X + k], p1 - ends[a, _Y + k], p2 - ends[a, _Z + k]
+        u, v, w = ends[a, _U + k], ends[a, _V + k], ends[a, _W + k]
         s = _clamp((x * u + y * v + z * w) * inverse)
         x, y, z = x - s * u, y - s * v, z - s * w
-        found |= _verdict(x * x + y * y + z * z, apart, ways[k]) << k
+        found |= _verdict(x * x + y * y + z * z, apart, travel[a, 0, k]) << k
     return found
 
 
