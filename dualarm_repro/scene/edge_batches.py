@@ -147,9 +147,7 @@ def verdict(model, margin, travel, ends, queue, lanes):
     for n in range(len(model.box_pairs)):
         a, b = model.box_pairs[n]
         apart = radius[a] + margin
-        found |= box_verdict(
-            ends[a], model.boxes[b], model.half[b], extent[a], apart, travel[a, 0]
-        )
+        found |= box_verdict(ends[a], model.boxes[b], model.half[b], extent[a], apart, travel[a, 0])
     for n in range(len(model.hull_pairs)):
         a, b = model.hull_pairs[n]
         found |= hull_verdict(ends[a], model.hulls, b, extent[a], radius[a] + margin, travel[a, 0])

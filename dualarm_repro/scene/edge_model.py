@@ -178,7 +178,9 @@ def _capsules(scene: Scene, carried: Sequence[Body]) -> tuple[np.ndarray, np.nda
 
 def _moved(scene: Scene, carried: Sequence[Body], lever: np.ndarray) -> np.ndarray:
     first = np.array([_first(scene, body.owner) for body in carried], dtype=np.int64)
-    after = [row.nonzero()[0][-1] + 1 if row.any() else k for k, row in zip(first, lever, strict=True)]
+    after = [
+        row.nonzero()[0][-1] + 1 if row.any() else k for k, row in zip(first, lever, strict=True)
+    ]
     return np.stack([first, np.array(after, dtype=np.int64)], axis=1)
 
 

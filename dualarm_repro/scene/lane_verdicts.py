@@ -16,7 +16,7 @@ from numba.extending import intrinsic
 
 from ..kernel import inlined, kernel
 from .boxes import segment_box_distance
-from .lane_distances import LANES, _clamp, _core, _gap
+from .lane_distances import LANES, _clamp, _core, _gap, near_point
 from .polytope import Polytope, segment_polytope
 from .vectors import into_frame, rotated_back
 
@@ -69,18 +69,9 @@ def near_standing(ends, a, stands, b, apart, travel):
 
 
 @kernel
-def near_point(a, p, apart, ways):
-    """Bits of the lanes whose sphere around the capsule is not far enough from a point."""
-    near = 0
-    for k in range(LANES):
-        x, y, z = p[0] - a[_X + k], p[1] - a[_Y + k], p[2] - a[_Z + k]
-        need = apart + ways[k]
-        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
-    return near
-
-
-@kernel
-def queue_capsules(queue, owner, count, near, ends, a, b, square_a, square_b, apart, travel, from_a, from_b):
+def queue_capsules(
+    queue, owner, count, near, ends, a, b, square_a, square_b, apart, travel, from_a, from_b
+):
     """Put the lanes ``near`` of two capsules that move at the end of a queue (Q, 13, LANES) whose
     ``owner`` (Q, LANES) are the lanes; returns the new length."""
     while near:
@@ -97,7 +88,9 @@ def queue_capsules(queue, owner, count, near, ends, a, b, square_a, square_b, ap
 
 
 @kernel
-def queue_standing(queue, owner, count, near, ends, a, stands, b, square_a, square_b, apart, travel):
+def queue_standing(
+    queue, owner, count, near, ends, a, stands, b, square_a, square_b, apart, travel
+):
     """The same for a capsule and one that stands, ``stands[b]``: its middle and half core."""
     while near:
         k, n, i = _lowest(near), count // LANES, count % LANES

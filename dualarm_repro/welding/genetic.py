@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from math import ceil, isfinite
 from numbers import Integral
 from typing import Annotated, NamedTuple
@@ -206,12 +205,15 @@ def finished(search: Search) -> bool:
 
 def rests(history: list[Generation], settings: GeneticSettings) -> bool:
     """Whether the fitness that decides has changed too little over the last generations."""
-    window, of = settings.stall_generations, settings.stall_of
-    if len(history) <= window:
+    window, column = settings.stall_generations, Generation._fields.index(settings.stall_of)
+    if len(history) <= window or history[-1][column] <= 0.0:
         return False
-    last = [g.mean if of == "mean" else g.best for g in history[-1 - window :]]
-    changed = sum([abs(after - before) for before, after in pairwise(last)])
-    return last[-1] > 0.0 and changed / window <= settings.stall * last[-1]
+    enough, changed = settings.stall * history[-1][column], 0.0
+    for k in range(-window, 0):
+        changed += abs(history[k][column] - history[k - 1][column])
+        if changed / window > enough:  # and it only grows
+            return False
+    return True
 
 
 def select(search: Search) -> None:
