@@ -27,7 +27,6 @@ from .lane_verdicts import (
 #: Stretches that may wait. Of the stretches of one length or shorter ones at most 2 LANES are added
 #: at a time, and none longer before fewer than LANES are left: enough for 62 halvings.
 _WAITING = 64 * LANES
-_ALL = (1 << LANES) - 1
 
 
 @kernel

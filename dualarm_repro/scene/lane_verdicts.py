@@ -196,7 +196,7 @@ def box_verdict(a, pose, half, extent, apart, ways):
 @kernel
 def hull_verdict(a, hulls, row, extent, apart, ways):
     """A capsule and a convex hull: exactly where the spheres around both do not tell."""
-    near = near_point(a, hulls.around[row], apart + extent + hulls.around[row, 3], ways)
+    near = near_point(a, hulls.around[row], apart + extent + hulls.around[row, 3], 1.0, ways)
     if near == 0:
         return 0
     first, last, found = hulls.first[row], hulls.first[row + 1], 0
