@@ -40,10 +40,10 @@ def edges_free(model, starts, ends, margin, free, looked):
     w, turns = np.zeros(PLACES), np.zeros((3, joints * LANES))
     steps, placed = np.zeros((joints, LANES)), np.zeros((capsules, 6 * LANES))
     travel = np.zeros((capsules, joints + 1, LANES))
-    lane, share = np.zeros(LANES, np.int64), np.zeros((LANES, 2))
+    lane, share = np.empty(LANES, np.int64), np.empty((LANES, 2))
     most = len(model.pairs) + len(model.standing_pairs) + 1
-    queue, lanes = np.zeros((most, 13, LANES)), np.zeros((most, LANES), np.int64)
-    owner, waiting = np.zeros(_WAITING, np.int64), np.zeros((_WAITING, 2))
+    queue, lanes = np.empty((most, 13, LANES)), np.empty((most, LANES), np.int64)
+    owner, waiting = np.empty(_WAITING, np.int64), np.empty((_WAITING, 2))
     for n in range(edges):
         free[n], looked[n] = model.between_standing > margin, 0
     begun, count = 0, 0
