@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import ConfigurationError, InputError
-from .edge_kernels import edges_free
+from .edge_batches import edges_free
 from .edge_model import edge_model
 from .scene import Scene
 
@@ -22,7 +22,7 @@ def free_edges(
     """Whether d_k(q) > ``margin`` for every watched pair k and every q on each edge, (E,) of bool.
 
     True is a proof: between the configurations that are looked at no pair can come nearer (see
-    :mod:`.edge_kernels`). Capsules of one arm are compared as they are, without the hulls within
+    :mod:`.edge_batches`). Capsules of one arm are compared as they are, without the hulls within
     them (:mod:`.hull_pairs`), so that an edge can be free although the answer is False, never the
     other way round; so too where a pair keeps the margin by less than 0.02 mm.
 

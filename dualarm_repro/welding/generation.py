@@ -72,11 +72,26 @@ def pointed_at(wheel, start, count):
 
 
 @kernel
-def bred(individuals, parents, draws, noise, step, low, high, gaussian):
+def next_generation(individuals, wheel, start, order, draws, noise, left, low, high, gaussian):
+    """The children :func:`bred` by the parents that pointers from ``start`` on choose, taken in the
+    ``order`` (K,), with a step of ``left`` of the box."""
+    slots = pointed_at(wheel, start, len(order))
+    chosen, step = np.empty(len(order), np.int64), np.empty(len(low))
+    for k in range(len(order)):
+        chosen[k] = slots[order[k]]
+    for c in range(len(low)):
+        step[c] = left * (high[c] - low[c])
+    return bred(individuals, chosen, draws, noise, step, low, high, gaussian)
+
+
+@kernel
+def bred(individuals, chosen, draws, noise, step, low, high, gaussian):
     """The next generation (P, n): the first pass on, pairs of parents are crossed, the others move.
 
     Parameters
     ----------
+    chosen : (2 C + M,)
+        Rows of the parents.
     draws : (C, n)
         Below one half a coordinate is that of the first C parents, else that of the next C.
     noise, step : (M, n), (n,)
@@ -86,12 +101,19 @@ def bred(individuals, parents, draws, noise, step, low, high, gaussian):
     count, size = individuals.shape
     pairs, mutants = len(draws), len(noise)
     elite = count - pairs - mutants
-    children = np.empty_like(individuals)
-    children[:elite] = individuals[:elite]
-    for i in range(pairs):
+    children, parents = np.empty_like(individuals), np.empty((mutants, size))
+    for i in range(elite):
         for c in range(size):
-            children[elite + i, c] = parents[i, c] if draws[i, c] < 0.5 else parents[pairs + i, c]
-    parents, moved = parents[2 * pairs :], children[elite + pairs :]
+            children[i, c] = individuals[i, c]
+    for i in range(pairs):
+        first, second = chosen[i], chosen[pairs + i]
+        for c in range(size):
+            parent = first if draws[i, c] < 0.5 else second
+            children[elite + i, c] = individuals[parent, c]
+    for i in range(mutants):
+        for c in range(size):
+            parents[i, c] = individuals[chosen[2 * pairs + i], c]
+    moved = children[elite + pairs :]
     if gaussian:
         shifted(parents, noise, step, low, high, moved)
     else:

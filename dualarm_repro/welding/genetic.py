@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from math import ceil, isfinite
 from numbers import Integral
 from typing import Annotated, NamedTuple
@@ -19,7 +18,7 @@ import numpy as np
 from ..annotation import real_array
 from ..arguments import LATER, checked
 from ..errors import InputError, UnknownNameError
-from .generation import bred, pointed_at, ranked
+from .generation import next_generation, pointed_at, ranked
 
 Fitness = Callable[[np.ndarray], np.ndarray]
 MUTATIONS = ("gaussian", "adaptive_feasible")
@@ -120,12 +119,20 @@ class Search:
     rng: np.random.Generator
     individuals: np.ndarray = field(init=False)
     values: np.ndarray = field(init=False)
-    parents: np.ndarray = field(init=False)
+    before: np.ndarray = field(init=False)
+    pointer: float = field(init=False)
+    order: np.ndarray = field(init=False)
     history: list[Generation] = field(init=False, default_factory=list)
     evaluations: int = field(init=False, default=0)
     known: int = field(init=False, default=0)
     step: float = field(init=False, default=1.0)
     reason: str | None = field(init=False, default=None)
+
+    @property
+    def parents(self) -> np.ndarray:
+        """Of the generation to come, or of the one that was bred last (K, n)."""
+        chosen = pointed_at(self.settings.wheel, self.pointer, len(self.order))
+        return self.before[chosen[self.order]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,33 +205,36 @@ def finished(search: Search) -> bool:
 
 def rests(history: list[Generation], settings: GeneticSettings) -> bool:
     """Whether the fitness that decides has changed too little over the last generations."""
-    window, of = settings.stall_generations, settings.stall_of
-    if len(history) <= window:
+    window, column = settings.stall_generations, Generation._fields.index(settings.stall_of)
+    if len(history) <= window or history[-1][column] <= 0.0:
         return False
-    last = [g.mean if of == "mean" else g.best for g in history[-1 - window :]]
-    changed = sum([abs(after - before) for before, after in pairwise(last)])
-    return last[-1] > 0.0 and changed / window <= settings.stall * last[-1]
+    enough, changed = settings.stall * history[-1][column], 0.0
+    for k in range(-window, 0):
+        changed += abs(history[k][column] - history[k - 1][column])
+        if changed / window > enough:  # and it only grows
+            return False
+    return True
 
 
 def select(search: Search) -> None:
     """Draw parents in proportion to 1/sqrt(rank) with equally spaced pointers"""
     _, pairs, mutants = search.settings.counts
-    chosen = pointed_at(search.settings.wheel, search.rng.random(), 2 * pairs + mutants)
-    search.rng.shuffle(chosen)
-    search.parents = search.individuals[chosen]
+    search.before, search.pointer = search.individuals, search.rng.random()
+    search.order = np.arange(2 * pairs + mutants)
+    search.rng.shuffle(search.order)
 
 
 def reproduce(search: Search) -> None:
     """Keep the elite, cross pairs of parents coordinate by coordinate, mutate the rest"""
-    settings, size = search.settings, search.high - search.low
+    settings, size = search.settings, len(search.low)
     elite, pairs, mutants = settings.counts
-    draws = search.rng.random((pairs, len(size)))
-    noise = search.rng.standard_normal((mutants, len(size)))
+    draws = search.rng.random((pairs, size))
+    noise = search.rng.standard_normal((mutants, size))
     gaussian = settings.mutation == "gaussian"
     left = 1.0 - len(search.history) / (settings.generations + 1) if gaussian else search.step
-    search.individuals = bred(
-        *(search.individuals, search.parents, draws, noise),
-        *(left * size, search.low, search.high, gaussian),
+    search.individuals = next_generation(
+        *(search.before, settings.wheel, search.pointer, search.order, draws, noise),
+        *(left, search.low, search.high, gaussian),
     )
     search.values[elite:] = 0.0
     search.known = elite

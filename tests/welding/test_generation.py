@@ -52,8 +52,8 @@ def test_a_wheel_that_ends_below_one_by_rounding_is_not_left():
 
 
 def test_children_take_each_coordinate_from_one_parent():
-    people = np.arange(15.0).reshape(5, 3) + 100.0
-    parents = np.vstack([np.zeros((2, 3)), np.ones((2, 3)), np.full((1, 3), 0.5)])
+    people = np.repeat([[7.0], [8.0], [0.0], [1.0], [0.5]], 3, axis=1)
+    parents = np.array([2, 2, 3, 3, 4])
     draws, noise = np.array([[0.0, 0.49, 0.5], [0.51, 0.99, 0.1]]), np.array([[1.0, -2.0, 9.0]])
     step, box = np.array([0.1, 0.2, 0.3]), (np.zeros(3), np.ones(3))
     children = bred(people, parents, draws, noise, step, *box, True)
