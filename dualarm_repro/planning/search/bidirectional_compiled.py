@@ -288,7 +288,10 @@ def _note(around, m, found, radius):
 @kernel
 def move(field, rules, side, turn, force, rows, memory):
     """One step of a half along ``force``, after a look for a flip."""
-    size = np.sqrt((force * force).sum())
+    size = 0.0
+    for j in range(len(force)):
+        size += force[j] * force[j]
+    size = np.sqrt(size)
     cosine = 0.0
     for j in range(len(force)):
         direction = force[j] / size if size > 0.0 else 0.0
