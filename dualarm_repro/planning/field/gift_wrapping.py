@@ -27,51 +27,45 @@ def wrap_hulls(points, planes, triangles, counts):
     order seen from outside, their outward planes n . x + c <= 0 (T, 2 M, 4), and their number
     (T,), 0 where the points do not span a volume or lie so that round-off decides."""
     most = points.shape[1]
-    xyz, keys = np.empty((3, most)), np.empty(most)
-    owned = np.zeros((most, most), dtype=np.bool_)
+    x, y, z, keys = np.empty(most), np.empty(most), np.empty(most), np.empty(most)
+    owner = np.full((most, most), -1)
     ring, open_edges = np.empty(most, np.int64), np.empty((6 * most, 2), np.int64)
     normals = np.empty((len(open_edges), 3))
     for t in range(len(points)):
-        count, level = _distinct(points[t], xyz)
+        count, level = _distinct(points[t], x, y, z)
         counts[t] = 0
         if count >= 4:
-            owned[:count, :count] = False
-            work = (keys, owned, ring, open_edges, normals)
-            counts[t] = _wrapped(xyz[:, :count], level, work, planes[t], triangles[t])
+            xyz = x[:count], y[:count], z[:count]
+            work = keys, owner, ring, open_edges, normals
+            counts[t] = _wrapped(t, xyz, level, work, planes[t], triangles[t])
 
 
 @kernel
-def _distinct(points, xyz):
-    """The points without repeats into the columns of ``xyz``; their number, and the distance that
-    is none."""
+def _distinct(points, x, y, z):
+    """The points without repeats into ``x``, ``y``, ``z``; their number, and the distance that is
+    none."""
     extent = 0.0
     for r in range(3):
         extent = max(extent, points[:, r].max() - points[:, r].min())
     level, count = _LEVEL * extent, 0
     for i in range(len(points)):
-        x, y, z = points[i, 0], points[i, 1], points[i, 2]
+        a, b, c = points[i, 0], points[i, 1], points[i, 2]
         new = True
         for k in range(count):
-            if (
-                abs(xyz[0, k] - x) <= level
-                and abs(xyz[1, k] - y) <= level
-                and abs(xyz[2, k] - z) <= level
-            ):
+            if abs(x[k] - a) <= level and abs(y[k] - b) <= level and abs(z[k] - c) <= level:
                 new = False
                 break
         if new:
-            xyz[0, count], xyz[1, count], xyz[2, count] = x, y, z
+            x[count], y[count], z[count] = a, b, c
             count += 1
     return count, level
 
 
 @kernel
-def _wrapped(xyz, level, work, planes, triangles):
-    """Faces of one hull; their number, 0 if the surface does not close."""
-    keys, owned, ring, edges, normals = work
-    count = xyz.shape[1]
-    first = np.argmin(xyz[0])
-    a = _point(xyz, first)
+def _wrapped(t, xyz, level, work, planes, triangles):
+    """Faces of hull number ``t``; how many, 0 if the surface does not close."""
+    keys, owner, ring, edges, normals = work
+    a = _point(xyz, np.argmin(xyz[0]))
     up, left = (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)
     normal, size = _turned(xyz, a, up, left, level, keys, ring)
     if size < 2:
@@ -84,19 +78,18 @@ def _wrapped(xyz, level, work, planes, triangles):
         corners = _next(xyz, normal, j, i, level, ring, size)
     if corners < 3 or not _spans(xyz, normal, ring[0], level):
         return 0
-    faces = waiting = sides = 0
+    faces = waiting = 0
     while corners > 2:
-        sides += corners
         if faces + corners > len(planes) or waiting + corners > len(edges):
             return 0
         if corners > 3:
             normal = _of_polygon(xyz, ring, corners)
         for k in range(corners):
             i, j = ring[k], ring[(k + 1) % corners]
-            if owned[i, j]:
+            if owner[i, j] == t:
                 return 0
-            owned[i, j] = True
-            if not owned[j, i]:
+            owner[i, j] = t
+            if owner[j, i] != t:
                 edges[waiting, 0], edges[waiting, 1] = i, j
                 normals[waiting, 0], normals[waiting, 1], normals[waiting, 2] = normal
                 waiting += 1
@@ -107,14 +100,14 @@ def _wrapped(xyz, level, work, planes, triangles):
             planes[faces, 0], planes[faces, 1], planes[faces, 2] = normal
             planes[faces, 3] = -offset
             for c, i in enumerate((ring[0], ring[k], ring[k + 1])):
-                for r in range(3):
-                    triangles[faces, c, r] = xyz[r, i]
+                at = _point(xyz, i)
+                triangles[faces, c, 0], triangles[faces, c, 1], triangles[faces, c, 2] = at
             faces += 1
         i = j = -1
         while waiting > 0:
             waiting -= 1
             i, j = edges[waiting, 0], edges[waiting, 1]
-            if not owned[j, i]:
+            if owner[j, i] != t:
                 break
             i = -1
         if i < 0:
@@ -136,9 +129,9 @@ def _about(xyz, i, j, normal, level, keys, ring):
 def _turned(xyz, a, way, normal, level, keys, ring):
     """Normal of the plane about the line through ``a`` that leaves all points below, met first as a
     plane of that ``normal`` turns; the points in it into ``ring``, and how many (0: not found)."""
-    count = xyz.shape[1]
+    x, y, z = xyz
+    count = len(x)
     aside = cross(way, normal)
-    x, y, z = xyz[0], xyz[1], xyz[2]
     for i in range(count):
         dx, dy, dz = x[i] - a[0], y[i] - a[1], z[i] - a[2]
         out = dx * aside[0] + dy * aside[1] + dz * aside[2]
@@ -233,7 +226,7 @@ def _farthest(xyz, ring, size):
 def _spans(xyz, normal, corner, level):
     """Whether some point lies below the plane of a face."""
     a = _point(xyz, corner)
-    for i in range(xyz.shape[1]):
+    for i in range(len(xyz[0])):
         if dot(normal, minus(_point(xyz, i), a)) < -_THIN * level:
             return True
     return False
@@ -252,4 +245,4 @@ def _of_polygon(xyz, ring, corners):
 
 @kernel
 def _point(xyz, i):
-    return xyz[0, i], xyz[1, i], xyz[2, i]
+    return xyz[0][i], xyz[1][i], xyz[2][i]
