@@ -12,7 +12,7 @@ from ...errors import InputError
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.hull import circle_points
-from ...scene.vectors import along, dot, minus, scaled, vector
+from ...scene.vectors import along, dot, minus, out_of_frame, scaled, vector
 from .control_points import frames_of
 from .gift_wrapping import MOST, wrap_hulls
 
@@ -60,8 +60,18 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
         poles = np.multiply.outer(circles.radii, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
         local = np.vstack([local, (centres[:, np.newaxis] + poles).reshape(-1, 3)])
         carrier = np.append(carrier, np.repeat(np.minimum(number, arm.nq), 2))
-    frames = frames_of(placed, q)[:, carrier]
-    return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
+    points = np.empty((len(q), len(local), 3))
+    _carry(frames_of(placed, q), carrier, local, points)
+    return points
+
+
+@kernel
+def _carry(frames, carrier, local, points):
+    """Points (P, 3) of the frames (N, J, 3, 4) that carry them into ``points`` (N, P, 3)."""
+    for n in range(len(frames)):
+        for k in range(len(carrier)):
+            at = out_of_frame(frames[n, carrier[k]], vector(local[k]))
+            points[n, k, 0], points[n, k, 1], points[n, k, 2] = at
 
 
 def _planar(arm: Arm) -> bool:
