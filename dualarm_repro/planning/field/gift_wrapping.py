@@ -1,4 +1,4 @@
-"""Convex hulls of many small point sets by gift wrapping, a whole face with all its corners at once.
+"""Convex hulls of many small point sets by gift wrapping, a whole face with all corners at once.
 
 From an open edge of a face the plane turns about the edge until it meets a point. All points in the
 plane form the next face, so that points of one circle, or of parallel circles, make one polygon and
@@ -167,7 +167,7 @@ def _turned(xyz, a, way, normal, level, keys, ring):
 
 @kernel
 def _next(xyz, normal, first, second, level, ring, size):
-    """Corners of the face whose edge from ``first`` to ``second`` is known, see :func:`_ordered`."""
+    """As :func:`_ordered` of a face whose edge from ``first`` to ``second`` is known."""
     if size < 3:
         return 0
     _swap(ring, size, first, 0)

@@ -113,10 +113,12 @@ def _plain_ends(
     arm: Arm, start: ArrayLike, goal: ArrayLike, within_limits: bool
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Copies of ends that are plain arrays without a fault; None: look closer, and name it."""
-    for end in (start, goal):
-        if type(end) is not np.ndarray or end.dtype != _FLOAT or end.shape != (arm.nq,):
-            return None
+    if type(start) is not np.ndarray or type(goal) is not np.ndarray:
+        return None
     ends = start.copy(), goal.copy()
+    for end in ends:
+        if end.dtype != _FLOAT or end.shape != (arm.nq,):
+            return None
     return ends if _faultless(*ends, *_limits(arm, within_limits)) else None
 
 
