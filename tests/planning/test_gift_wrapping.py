@@ -12,8 +12,8 @@ from dualarm_repro.planning.field.gift_wrapping import MOST, wrap_hulls
 from dualarm_repro.planning.field.hull_obstacle import (
     JointCircles,
     circles_on,
-    hull_distance,
     hull_track,
+    point_hull,
 )
 
 GRID = np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3)
@@ -117,8 +117,8 @@ def test_hulls_of_arms_keep_the_distances_of_qhull(seed, containing):
     for row, planes, triangles in zip(points, *track, strict=True):
         hull = ConvexHull(row)
         for point in row.mean(axis=0) + rng.normal(0.0, 0.3, (10, 3)):
-            ours, away = hull_distance(point, planes, triangles)
-            theirs, gradient = hull_distance(point, hull.equations, row[hull.simplices])
+            ours, away = point_hull(tuple(point), planes, triangles)
+            theirs, gradient = point_hull(tuple(point), hull.equations, row[hull.simplices])
             assert ours == pytest.approx(theirs, abs=1e-12)
             if ours > 0.0:  # inside, two planes can be equally near
                 assert away == pytest.approx(gradient, abs=1e-9 / min(ours, 1.0))
