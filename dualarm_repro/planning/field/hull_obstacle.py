@@ -8,11 +8,13 @@ import numpy as np
 import scipy
 
 from ...arms import Arm
+from ...errors import InputError
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.hull import circle_points
-from ...scene.vectors import along, dot, minus, scaled, vector
+from ...scene.vectors import along, dot, minus, out_of_frame, scaled, vector
 from .control_points import frames_of
+from .gift_wrapping import MOST, wrap_hulls
 
 FAR = np.inf
 
@@ -58,8 +60,18 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
         poles = np.multiply.outer(circles.radii, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
         local = np.vstack([local, (centres[:, np.newaxis] + poles).reshape(-1, 3)])
         carrier = np.append(carrier, np.repeat(np.minimum(number, arm.nq), 2))
-    frames = frames_of(placed, q)[:, carrier]
-    return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
+    points = np.empty((len(q), len(local), 3))
+    _carry(frames_of(placed, q), carrier, local, points)
+    return points
+
+
+@kernel
+def _carry(frames, carrier, local, points):
+    """Points (P, 3) of the frames (N, J, 3, 4) that carry them into ``points`` (N, P, 3)."""
+    for n in range(len(frames)):
+        for k in range(len(carrier)):
+            at = out_of_frame(frames[n, carrier[k]], vector(local[k]))
+            points[n, k, 0], points[n, k, 1], points[n, k, 2] = at
 
 
 def _planar(arm: Arm) -> bool:
@@ -72,16 +84,36 @@ def _planar(arm: Arm) -> bool:
 
 
 def hull_track(points: np.ndarray) -> HullTrack:
-    """Convex hulls of point sets (T, M, 3)."""
-    hulls = [scipy.spatial.ConvexHull(row) for row in points]
-    most = max((len(hull.simplices) for hull in hulls), default=0)
-    planes, triangles = np.empty((len(hulls), most, 4)), np.empty((len(hulls), most, 3, 3))
-    for k, (hull, row) in enumerate(zip(hulls, points, strict=True)):
-        faces = len(hull.simplices)
-        planes[k, :faces], planes[k, faces:] = hull.equations, hull.equations[-1]
-        corners = row[hull.simplices]
-        triangles[k, :faces], triangles[k, faces:] = corners, corners[-1]
-    return HullTrack(planes, triangles)
+    """Convex hulls of point sets (T, M, 3).
+
+    Raises
+    ------
+    InputError
+        Points that do not span a volume, or are no finite numbers.
+    """
+    points = np.ascontiguousarray(points, dtype=float)
+    rows, count = points.shape[:2]
+    planes, triangles = np.empty((rows, 2 * count, 4)), np.empty((rows, 2 * count, 3, 3))
+    faces = np.zeros(rows, dtype=np.int64)
+    if count <= MOST:
+        wrap_hulls(points, planes, triangles, faces)
+    for k in np.flatnonzero(faces == 0):
+        hull = _by_qhull(points[k])
+        faces[k] = found = len(hull.simplices)
+        planes[k, :found], triangles[k, :found] = hull.equations, points[k][hull.simplices]
+    # A row with fewer faces repeats its last one.
+    shown = np.minimum(np.arange(faces.max(initial=0)), faces[:, np.newaxis] - 1)
+    row = np.arange(rows)[:, np.newaxis]
+    return HullTrack(planes[row, shown], triangles[row, shown])
+
+
+def _by_qhull(points: np.ndarray) -> scipy.spatial.ConvexHull:
+    """The hull of points that are many, or lie so that round-off decides about a face."""
+    try:
+        return scipy.spatial.ConvexHull(points)
+    except (ValueError, scipy.spatial.QhullError):
+        expected = "at least four finite points that do not lie in one plane"
+        raise InputError("hull_track", "points", points, expected) from None
 
 
 def hull_distance(

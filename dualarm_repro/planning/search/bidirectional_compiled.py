@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arms.chain import Chain
-from ...kernel import kernel
+from ...kernel import inlined, kernel
 from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
 from ...scene.posing import set_frames
@@ -221,7 +221,7 @@ def run(field, rules, hulls, start, goal, rows, memory):
     return _STEP_LIMIT, rules.limit
 
 
-@kernel
+@inlined
 def resultant(field, rules, hulls, side, turn, target, rows, memory, frames, around, force):
     """F_att + F_rep of one half into ``force``; notes distances and gain factors."""
     q = rows.path[side, turn]
@@ -251,7 +251,7 @@ def resultant(field, rules, hulls, side, turn, target, rows, memory, frames, aro
                 add_torque(frames, joint, point, scaled(strength, vector(around[m, 1:])), force)
 
 
-@kernel
+@inlined
 def distances(field, hulls, row, k, point, around):
     """Distance of control point k to every shape and its gradient, into ``around`` (M, 4); returns
     which shape is nearest, -1 without any."""
@@ -279,16 +279,19 @@ def distances(field, hulls, row, k, point, around):
     return nearest
 
 
-@kernel
+@inlined
 def _note(around, m, found, radius):
     around[m, 0] = found[0] - radius
     around[m, 1], around[m, 2], around[m, 3] = found[1]
 
 
-@kernel
+@inlined
 def move(field, rules, side, turn, force, rows, memory):
     """One step of a half along ``force``, after a look for a flip."""
-    size = np.sqrt((force * force).sum())
+    size = 0.0
+    for j in range(len(force)):
+        size += force[j] * force[j]
+    size = np.sqrt(size)
     cosine = 0.0
     for j in range(len(force)):
         direction = force[j] / size if size > 0.0 else 0.0
