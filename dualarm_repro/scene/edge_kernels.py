@@ -73,7 +73,8 @@ def edge_free(model, start, end, margin, known, buffers):
             row = count + min(k, rows - 1)
             w[_AT + k], w[_HALF + k] = waiting[row, 0], waiting[row, 1]
             halves[k] = waiting[row, 1]
-        pose_block(model, start, end, w, turns, ends)
+        set_joints(start, end, w, turns)
+        place_block(model, w, turns, ends)
         looked += rows
         unsure = unsure_lanes(model, margin, known, travel, halves, ends)
         if unsure < 0:
@@ -105,13 +106,12 @@ def set_travel(model, start, end, travel):
 
 
 @kernel
-def pose_block(model, start, end, w, turns, ends):
-    """Capsules of the controlled arms at the parameters of a block."""
+def set_joints(start, end, w, turns):
+    """Joints ``turns[0]`` [rad, m] at the parameters of a block."""
     for j in range(len(start)):
         base, change = start[j], end[j] - start[j]
         for k in range(LANES):
             turns[0, j * LANES + k] = base + w[_AT + k] * change
-    place_block(model, w, turns, ends)
 
 
 @kernel
@@ -120,10 +120,13 @@ def place_block(model, w, turns, ends):
     capsule = 0
     _set_turns(turns)
     for j in range(len(model.begins)):
+        if model.slides[j]:
+            for k in range(LANES):
+                turns[1, j * LANES + k], turns[2, j * LANES + k] = 0.0, 1.0
         for k in range(LANES):
-            w[k] = 0.0 if model.slides[j] else turns[1, j * LANES + k]
+            w[k] = turns[1, j * LANES + k]
         for k in range(LANES):
-            w[_COS + k] = 1.0 if model.slides[j] else turns[2, j * LANES + k]
+            w[_COS + k] = turns[2, j * LANES + k]
         if model.begins[j]:
             _begin(model.rotation[j], model.translation[j], w)
         else:

@@ -18,7 +18,7 @@ from dualarm_repro.scene import (
     Sphere,
     distances,
 )
-from dualarm_repro.scene.edge_kernels import LANES, edge_buffers, pose_block
+from dualarm_repro.scene.edge_kernels import LANES, edge_buffers, place_block, set_joints
 from dualarm_repro.scene.edge_model import edge_model
 from dualarm_repro.scene.edges import free_edges
 from dualarm_repro.scene.lane_distances import unsure_box, unsure_capsules, unsure_plane
@@ -197,7 +197,8 @@ def test_poses_of_a_block_are_those_of_the_scene(scene):
     buffers = edge_buffers(model)
     w, turns, _, ends, *_ = buffers
     w[14 * LANES : 15 * LANES] = share = np.linspace(0.0, 1.0, LANES)
-    pose_block(model, start, end, w, turns, ends)
+    set_joints(start, end, w, turns)
+    place_block(model, w, turns, ends)
     q = start + share[:, np.newaxis] * (end - start)
     cores = place(scene, q, np.zeros(LANES)).cores
     middles = cores.mean(axis=2)
