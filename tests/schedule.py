@@ -17,11 +17,6 @@ BY_DOCUMENT = (
 )
 #: Files whose tests share what the command line exports.
 REPLAYED = "tests/replay/"
-#: Files whose tests share nothing that takes long.
-TORN = (
-    "tests/book/test_chapters_of_programs.py::test_every_cell_shows_what_it_promises",
-    "tests/ledger/test_closure.py::test_a_cell_runs_no_code",
-)
 #: Processor time of what takes longest [s], by the beginning of its group; it need not be exact.
 COSTS = {
     "items of patent": 100,
@@ -49,7 +44,7 @@ def group_of(nodeid: str) -> str:
         return f"items of {named[1]}"
     if file.startswith(REPLAYED):
         return REPLAYED
-    return nodeid if nodeid.startswith(TORN) else file
+    return file
 
 
 def cost_of(group: str) -> int:

@@ -2,7 +2,7 @@
 
 import pytest
 from long_tests import COLLECTED, without_short_form
-from schedule import COSTS, TORN, DearestFirst, cost_of, group_of
+from schedule import COSTS, DearestFirst, cost_of, group_of
 
 
 def test_every_long_test_has_a_short_form_or_a_reason(request):
@@ -40,7 +40,7 @@ def test_a_parameter_is_long_where_another_is_short():
         ("tests/papers/test_statistics.py::test_a[2-qiu.claim_d]", "items of qiu"),
         ("tests/papers/test_ledger_of_papers.py::test_nothing_drifted[pan]", "items of pan"),
         ("tests/papers/test_ledger_of_papers.py::test_a", "tests/papers/test_ledger_of_papers.py"),
-        (f"{TORN[0]}[pan/weld]", f"{TORN[0]}[pan/weld]"),
+        ("tests/replay/test_replay_pan.py::test_seam", "tests/replay/"),
     ],
 )
 def test_tests_that_share_an_evaluation_share_a_worker(nodeid, group):
@@ -56,7 +56,7 @@ def test_what_takes_longest_is_collected_first(request):
 
 def test_costs_are_of_tests_that_exist(request):
     folder = request.config.rootpath
-    for name in (*COSTS, *(one.partition("::")[0] for one in TORN)):
+    for name in COSTS:
         assert name.startswith("items of") or (folder / name).exists(), name
     documents = {path.name for path in (folder / "tests" / "papers").iterdir() if path.is_dir()}
     named = {name.removeprefix("items of").strip() for name in COSTS if name.startswith("items")}
