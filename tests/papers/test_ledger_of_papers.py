@@ -114,14 +114,10 @@ def _at(stored, path):
 
 @pytest.mark.parametrize("item_id", [i for i in ATTEMPTED if REGISTRY.item(i).kind == "figure"])
 def test_figure(item_id):
-    import matplotlib.pyplot as plt
-
+    """There is one, and words for who cannot see it; it is drawn and read in `test_figures_fit`."""
     result = evaluated(item_id).result
     assert result.figure is not None or result.scene is not None
-    if result.figure is not None:
-        figure = result.figure()
-        assert len(result.alt) > 30
-        plt.close(figure)
+    assert result.figure is None or len(result.alt) > 30
 
 
 def test_a_worker_that_has_read_nothing_knows_the_assumptions():
