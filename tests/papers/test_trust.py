@@ -10,9 +10,12 @@ from dualarm_repro.ledger.trust import by_obtained, by_printed, tally
 @pytest.mark.parametrize("direction", ["obtained", "printed"])
 @pytest.mark.parametrize("item_id", ATTEMPTED)
 def test_every_change_is_noticed(item_id, direction, monkeypatch):
-    # First the item as it is, which is known; then under other prints, which is computed.
-    known = iter([evaluated(item_id)])
+    known = [evaluated]
+
+    def as_it_is_then_under_other_prints(registry, asked):
+        return known.pop()(asked) if known else evaluate(registry, asked)
+
     for module in (by_obtained, by_printed):
-        monkeypatch.setattr(module, "evaluate", lambda *of: next(known, None) or evaluate(*of))
+        monkeypatch.setattr(module, "evaluate", as_it_is_then_under_other_prints)
     assert tally(REGISTRY, item_id, direction).violations == ()
-    assert next(known, None) is None
+    assert known == []
