@@ -3,7 +3,6 @@
 import shutil
 import sys
 from functools import cache, partial
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,10 @@ from dualarm_repro.ledger.record import roots
 from dualarm_repro.ledger.spot import seed_of_code
 from dualarm_repro.ledger.versions import DISTRIBUTIONS, versions
 from dualarm_repro.papers import load
+from dualarm_repro.papers.pan.studies import fit
+from dualarm_repro.papers.xue import demands
 from dualarm_repro.papers.xue.reading import nominal
+from dualarm_repro.papers.xue.studies import ablation, search, trials
 from dualarm_repro.sources import Graph, graph
 from dualarm_repro.tracking import recording
 
@@ -26,10 +28,10 @@ PACKAGE = Path(found.__file__).parents[1]
 STUDIES = sorted(load().studies)
 #: Numbers that bound what a cell computes; with these it still calls all that it calls.
 BRIEF = {
-    "xue_ablation": {"nominal": partial(nominal, step_limit=50)},
-    "xue_search": {"ROUNDS": 40},
-    "xue_trials": {"BLOCK": 2, "nominal": partial(nominal, step_limit=50)},
-    "pan_fit": {"DRAWS": 2, "EVALUATIONS": 3, "_SMALLEST": 0.2},
+    "pan_fit": [(fit, "DRAWS", 2), (fit, "EVALUATIONS", 3), (fit, "_SMALLEST", 0.2)],
+    "xue_ablation": [(ablation, "nominal", partial(nominal, step_limit=50))],
+    "xue_search": [(search, "ROUNDS", 40), (demands, "SHIFTS", {"window_centre_x": 0.01})],
+    "xue_trials": [(trials, "BLOCK", 2), (trials, "nominal", partial(nominal, step_limit=50))],
 }
 #: What draws an arrangement at random is imported, so it belongs to the closure with all that it
 #: calls, which the cell of `xue_lottery` traces.
@@ -151,8 +153,8 @@ def test_stored_studies_are_up_to_date(name):
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_cell_runs_no_code_and_opens_no_file_outside_its_closure(name, monkeypatch):
     study = load().studies[name]
-    for constant, value in BRIEF.get(name, {}).items():
-        monkeypatch.setattr(import_module(study.compute.__module__), constant, value)
+    for module, constant, value in BRIEF.get(name, ()):
+        monkeypatch.setattr(module, constant, value)
     index = cheapest(study)
     stays_within(study, index, {**study.cells()[index], **BRIEF_CELLS.get(name, {})})
 
