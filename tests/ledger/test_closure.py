@@ -31,13 +31,17 @@ BRIEF = {
     "pan_fit": [(fit, "DRAWS", 2), (fit, "EVALUATIONS", 3), (fit, "_SMALLEST", 0.2)],
     "xue_ablation": [(ablation, "nominal", partial(nominal, step_limit=50))],
     "xue_search": [(search, "ROUNDS", 40), (demands, "SHIFTS", {"window_centre_x": 0.01})],
-    "xue_trials": [(trials, "BLOCK", 2), (trials, "nominal", partial(nominal, step_limit=50))],
+    "xue_trials": [(trials, "BLOCK", 2)],
 }
 #: What draws an arrangement at random is imported, so it belongs to the closure with all that it
 #: calls, which the cell of `xue_lottery` traces.
 BRIEF_CELLS = {"xue_ablation": {"layout": "nominal", "trials": 2}}
 #: Column that tells how long a cell takes.
-CHEAPEST = {"xue_paths": "improved_steps", "patent_crossings": "draw"}
+CHEAPEST = {
+    "patent_crossings": "draw",
+    "xue_paths": "improved_steps",
+    "xue_planners": "rrt_both_effort",
+}
 ITEMS = ("xue.fig08", "xue.tab02", "qiu.fig10", "patent.fig02", "pan.claim_optimum")
 
 
