@@ -19,7 +19,7 @@ from dualarm_repro.papers import load
 from dualarm_repro.papers.pan.studies import fit
 from dualarm_repro.papers.xue import demands
 from dualarm_repro.papers.xue.reading import nominal
-from dualarm_repro.papers.xue.studies import ablation, search, trials
+from dualarm_repro.papers.xue.studies import ablation, planners, search, trials
 from dualarm_repro.sources import Graph, graph
 from dualarm_repro.tracking import recording
 
@@ -30,6 +30,7 @@ STUDIES = sorted(load().studies)
 BRIEF = {
     "pan_fit": [(fit, "DRAWS", 2), (fit, "EVALUATIONS", 3), (fit, "_SMALLEST", 0.2)],
     "xue_ablation": [(ablation, "nominal", partial(nominal, step_limit=50))],
+    "xue_planners": [(planners, "CHECKS", 3000)],
     "xue_search": [(search, "ROUNDS", 40), (demands, "SHIFTS", {"window_centre_x": 0.01})],
     "xue_trials": [(trials, "BLOCK", 2)],
 }
@@ -40,7 +41,6 @@ BRIEF_CELLS = {"xue_ablation": {"layout": "nominal", "trials": 2}}
 CHEAPEST = {
     "patent_crossings": "draw",
     "xue_paths": "improved_steps",
-    "xue_planners": "rrt_both_effort",
 }
 ITEMS = ("xue.fig08", "xue.tab02", "qiu.fig10", "patent.fig02", "pan.claim_optimum")
 
