@@ -2,7 +2,7 @@
 
 import shutil
 import sys
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +18,7 @@ from dualarm_repro.ledger.versions import DISTRIBUTIONS, versions
 from dualarm_repro.papers import load
 from dualarm_repro.papers.pan.studies import fit
 from dualarm_repro.papers.xue import demands
-from dualarm_repro.papers.xue.reading import nominal
-from dualarm_repro.papers.xue.studies import ablation, planners, search, trials
+from dualarm_repro.papers.xue.studies import planners, search, trials
 from dualarm_repro.sources import Graph, graph
 from dualarm_repro.tracking import recording
 
@@ -29,7 +28,6 @@ STUDIES = sorted(load().studies)
 #: Numbers that bound what a cell computes; with these it still calls all that it calls.
 BRIEF = {
     "pan_fit": [(fit, "DRAWS", 2), (fit, "EVALUATIONS", 3), (fit, "_SMALLEST", 0.2)],
-    "xue_ablation": [(ablation, "nominal", partial(nominal, step_limit=50))],
     "xue_planners": [(planners, "CHECKS", 3000)],
     "xue_search": [(search, "ROUNDS", 40), (demands, "SHIFTS", {"window_centre_x": 0.01})],
     "xue_trials": [(trials, "BLOCK", 2)],
