@@ -1,7 +1,7 @@
 """What a value depends on: every kind of dependency is seen, and nothing else is."""
 
 import shutil
-import sys
+from cProfile import Profile
 from functools import cache
 from pathlib import Path
 
@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from dualarm_repro.arms.trigonometry import sincos
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.ledger import closure as found
 from dualarm_repro.ledger.closure import carries, closure, module_of
@@ -178,23 +179,26 @@ def cheapest(study):
 
 
 def stays_within(study, index, cell):
-    called: set[str] = set()
-    names = {str(path): module for module, path in graph().files.items()}
-
-    def trace(frame, event, argument):
-        if event == "call" and (module := names.get(frame.f_code.co_filename)):
-            called.add(module)
-
-    sys.setprofile(trace)
-    try:
-        with recording() as opened:
-            study.cell(index, cell)
-    finally:
-        sys.setprofile(None)
+    with recording() as opened:
+        called = modules_called(lambda: study.cell(index, cell))
     assert module_of(study.compute) in called
     outside = {one for one in called if not carries(one)} - set(study.code["modules"])
     assert {one for one in outside if not one.endswith("__init__")} <= _packages()
     assert opened <= study.meta()["inputs"].keys()
+
+
+def modules_called(call):
+    """Modules of the package of which a function runs; the profiler sees compiled ones too."""
+    profiler = Profile()
+    profiler.runcall(call)
+    names = {str(path): module for module, path in graph().files.items()}
+    files = {getattr(entry.code, "co_filename", None) for entry in profiler.getstats()}
+    return {names[file] for file in files & names.keys()}
+
+
+def test_a_compiled_function_is_seen_where_it_is_called():
+    assert "dualarm_repro.arms.trigonometry" in modules_called(lambda: sincos(0.1))
+    assert modules_called(lambda: 0.1) == set()
 
 
 def _packages():
@@ -206,19 +210,8 @@ def _packages():
 def test_an_item_runs_no_code_outside_its_closure(item_id):
     from dualarm_repro.ledger import evaluate
 
-    called: set[str] = set()
-    names = {str(path): module for module, path in graph().files.items()}
-
-    def trace(frame, event, argument):
-        if event == "call" and (module := names.get(frame.f_code.co_filename)):
-            called.add(module)
-
     modules = closure([load().checkers[item_id].compute], roots(load(), item_id)).modules
-    sys.setprofile(trace)
-    try:
-        evaluate(load(), item_id)
-    finally:
-        sys.setprofile(None)
+    called = modules_called(lambda: evaluate(load(), item_id))
     assert {one for one in called if not carries(one)} - set(modules) <= _packages()
 
 
