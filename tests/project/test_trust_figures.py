@@ -4,6 +4,7 @@ import json
 
 import branch_coverage
 import pytest
+import run_long_tests
 import trust
 import trust_figures
 
@@ -65,4 +66,5 @@ def test_every_part_of_make_trust_is_there(root):
     for part in trust.PARTS:
         assert (root / trust.command(part)[1]).is_file()
     assert list(trust.PARTS)[-1] == "trust_figures", "written from what the others stored"
+    assert run_long_tests.command()[-2:] == ["-m", "long"]
     assert "$(BIN)/python tools/trust.py" in (root / "Makefile").read_text(encoding="utf-8")
