@@ -189,7 +189,8 @@ def run(field, rules, hulls, start, goal, rows, memory):
     force, frames = np.empty(len(start)), np.empty((len(start) + 1, 3, 4))
     shapes = len(field.core_radius) + len(field.half) + len(field.planes)
     around = np.empty((shapes + min(1, len(hulls[0].planes)), 4))
-    rows.path[0, 0], rows.path[1, 0] = start, goal
+    for j in range(len(start)):
+        rows.path[0, 0, j], rows.path[1, 0, j] = start[j], goal[j]
     closest, since = np.inf, 0
     for turn in range(rules.limit + 1):
         forward = rows.path[0, turn]
@@ -207,15 +208,16 @@ def run(field, rules, hulls, start, goal, rows, memory):
             reason = _STEP_LIMIT
         elif turn - since >= rules.stuck_searches:
             reason = _TRAPPED
-        resultant(field, rules, hulls[0], 0, turn, target, rows, memory, frames, around, force)
-        if reason < 0:
-            move(field, rules, 0, turn, force, rows, memory)
-        if rules.two_sided:
-            late = reason < 0 and not rules.aims_at_old_end
-            aim = rows.path[0, turn + 1] if late else forward
-            resultant(field, rules, hulls[1], 1, turn, aim, rows, memory, frames, around, force)
+        for side in range(2 if rules.two_sided else 1):  # a loop, so that each is compiled once
+            aim = target
+            if side == 1:
+                late = reason < 0 and not rules.aims_at_old_end
+                aim = rows.path[0, turn + 1] if late else forward
+            resultant(
+                field, rules, hulls[side], side, turn, aim, rows, memory, frames, around, force
+            )
             if reason < 0:
-                move(field, rules, 1, turn, force, rows, memory)
+                move(field, rules, side, turn, force, rows, memory)
         if reason >= 0:
             return reason, turn
     return _STEP_LIMIT, rules.limit
@@ -299,7 +301,8 @@ def move(field, rules, side, turn, force, rows, memory):
         memory.direction[side, j] = direction
     if memory.moved[side] and is_flip(rules.flip, cosine):
         memory.flips[side] += 1
-        memory.flip_distance[side] = rows.clearance[side, turn]
+        for k in range(len(field.joint)):
+            memory.flip_distance[side, k] = rows.clearance[side, turn, k]
     memory.moved[side] = True
     length = step_length(
         rules.step_rule,
