@@ -7,6 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
+from ..arms.angle import LARGEST
 from ..errors import ConfigurationError, InputError
 from .edge_batches import edges_free
 from .edge_model import edge_model
@@ -16,6 +18,7 @@ from .scene import Scene
 _FEW = 64
 
 
+@checked
 def free_edges(
     scene: Scene, starts: ArrayLike, ends: ArrayLike, margin: float = 0.0, jobs: int = 1
 ) -> np.ndarray:
@@ -38,8 +41,8 @@ def free_edges(
     Raises
     ------
     ConfigurationError, InputError
-        Ends of the wrong shape, with NaN or infinity; a margin or number of threads out of range;
-        a body that moves by itself.
+        Ends of the wrong shape, with NaN or infinity, or angles of which nothing is left but whole
+        turns; a margin or number of threads out of range; a body that moves by itself.
     """
     first, last = (np.atleast_2d(scene.configurations(end)) for end in (starts, ends))
     if first.shape != last.shape:
@@ -54,6 +57,9 @@ def free_edges(
     if (np.abs([first, last]) > widest).any():
         expected = "joints that slide within their limits"
         raise ConfigurationError("free_edges", "edges", "a slide beyond them", expected)
+    if (np.abs([first, last]) > np.where(model.slides, np.inf, LARGEST)).any():
+        expected = f"angles of at most {LARGEST:g} rad"
+        raise ConfigurationError("free_edges", "edges", "a larger one", expected)
     free, looked = np.empty(len(first), dtype=np.bool_), np.empty(len(first), dtype=np.int64)
 
     def run(rows: slice) -> None:

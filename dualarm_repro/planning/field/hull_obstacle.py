@@ -17,6 +17,10 @@ from .control_points import frames_of
 from .gift_wrapping import MOST, wrap_hulls
 
 FAR = np.inf
+_LARGEST = 1e9  # [m] of a coordinate
+#: Of a face whose plane is at most so far above a point [m], round-off may decide on which side of
+#: it the point lies.
+_LEVEL = 1e-9
 
 
 class HullTrack(NamedTuple):
@@ -92,6 +96,12 @@ def hull_track(points: np.ndarray) -> HullTrack:
         Points that do not span a volume, or are no finite numbers.
     """
     points = np.ascontiguousarray(points, dtype=float)
+    if points.ndim != 3 or points.shape[2] != 3 or points.shape[1] < 4:
+        expected = "sets of at least four points (T, M, 3)"
+        raise InputError("hull_track", "points", points.shape, expected)
+    if not (np.abs(points) <= _LARGEST).all():  # which NaN is not
+        expected = f"finite numbers of at most {_LARGEST:g} m"
+        raise InputError("hull_track", "points", points, expected)
     rows, count = points.shape[:2]
     planes, triangles = np.empty((rows, 2 * count, 4)), np.empty((rows, 2 * count, 3, 3))
     faces = np.zeros(rows, dtype=np.int64)
@@ -122,16 +132,21 @@ def hull_distance(
     """Signed distance of a point (3,) to a hull and its gradient; readable twin of
     :func:`point_hull`.
 
-    Inside it is the height over the nearest plane, outside the distance to the nearest face.
+    Inside it is the height over the nearest plane, outside the distance to the nearest face, those
+    included whose plane the point misses by round-off. On the surface the direction is the normal
+    of the plane that it is highest above.
     """
     height = planes[:, :3] @ point + planes[:, 3]
     top = int(height.argmax())
     if height[top] <= 0.0:
         return float(height[top]), planes[top, :3].copy()
-    feet = np.array([_nearest_on_triangle(point, corners) for corners in triangles[height > 0.0]])
+    faced = triangles[height > -_LEVEL]
+    feet = np.array([_nearest_on_triangle(point, corners) for corners in faced])
     gaps = point - feet
     distance = np.linalg.norm(gaps, axis=1)
     best = int(distance.argmin())
+    if distance[best] <= _LEVEL:
+        return float(distance[best]), planes[top, :3].copy()
     return float(distance[best]), gaps[best] / distance[best]
 
 
@@ -148,11 +163,13 @@ def point_hull(p, planes, triangles):
     best, gap = np.inf, p
     for f in range(len(planes)):
         above = dot(vector(planes[f]), p) + planes[f, 3]
-        if 0.0 < above < best:
+        if -_LEVEL < above < best:
             away = minus(p, on_triangle(p, triangles[f]))
             length = dot(away, away) ** 0.5
             if length < best:
                 best, gap = length, away
+    if best <= _LEVEL:  # of a gap that small nothing but noise is left of its direction
+        return best, vector(planes[top])
     return best, scaled(1.0 / best, gap)
 
 

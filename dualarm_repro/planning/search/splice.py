@@ -28,11 +28,16 @@ def smoothed(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarra
     Raises
     ------
     InputError
-        Too few samples, a negative ``smoothing``, or an ``end_weight`` that is not positive.
+        Too few samples or NaN among them, a negative ``smoothing``, an ``end_weight`` that is not
+        positive, or numbers so large that the curve is not finite.
     """
     weights = _weights(path, smoothing, end_weight)
     found = np.array(path, dtype=float, order="C")
+    if not np.isfinite(found).all():
+        raise InputError("smoothed", "path", path, "finite numbers")
     _smooth(found, weights, float(smoothing))
+    if not np.isfinite(found).all():
+        raise InputError("smoothed", "smoothing", smoothing, "a number whose curve is finite")
     return found
 
 
@@ -91,6 +96,8 @@ def roughness(path: np.ndarray) -> float:
 
 
 def _weights(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarray:
+    if np.ndim(path) != 2:
+        raise InputError("smoothed", "path", np.shape(path), "samples (N, nq)")
     if len(path) < 5:
         raise InputError("smoothed", "path", f"{len(path)} samples", "at least 5")
     if not 0.0 <= smoothing < np.inf:
