@@ -71,6 +71,15 @@ def test_bad_smoothing(plan):
     for weight in (0.0, -1.0, np.nan, np.inf):
         with pytest.raises(InputError, match=r"end_weight.*positive"):
             smoothed(plan.path, 1.0, weight)
+    with pytest.raises(InputError, match=r"samples \(N, nq\)"):
+        smoothed(plan.path[:, 0], 1.0, 1.0)
+    with pytest.raises(InputError, match="a number whose curve is finite"):
+        smoothed(plan.path, 1e308, 1.0)
+    for bad in (np.nan, np.inf):
+        path = plan.path.copy()
+        path[3, 1] = bad
+        with pytest.raises(InputError, match=r"path.*finite numbers"):
+            smoothed(path, 0.0, 1.0)
 
 
 def test_shares_rise_evenly_and_hold_the_middle():

@@ -185,6 +185,12 @@ def test_wrong_input_is_named(scene):
         free_edges(scene, starts, ends, -1.0)
     with pytest.raises(InputError, match="jobs"):
         free_edges(scene, starts, ends, jobs=0)
+    for name, value in (("margin", "a"), ("jobs", 1.5)):
+        with pytest.raises(InputError, match=f"{name}.*expected"):
+            free_edges(scene, starts, ends, **{name: value})
+    for far in (1.1e6, 1e17, 1e150):  # a sine of which would be noise, or none
+        with pytest.raises(ConfigurationError, match=r"angles of at most 1e\+06 rad"):
+            free_edges(scene, starts + far * np.eye(scene.nq)[0], ends)
     track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
     moving = Scene(scene.arms, moving={"ball": MovingShape(Sphere([0.0, 0.0, 2.0], 0.1), track)})
     with pytest.raises(InputError, match="ball"):
