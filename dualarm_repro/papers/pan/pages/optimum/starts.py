@@ -47,7 +47,9 @@ def bad_start(assumed: Assumed) -> Result:
         obtained={
             "lost": len(lost),
             "begun": int(begun.sum()),
-            "share": float(no_path[begun].mean()) if begun.any() else None,
+            "share": float(no_path[begun].mean())  # type: ignore[index]
+            if begun.any()
+            else None,
             "mostly": found.name.lower().replace("_", " ") if found is not None else None,
         },
         caption=caption("claim_bad_start", positions=len(grid.points)),
