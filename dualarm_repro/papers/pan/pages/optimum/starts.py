@@ -47,9 +47,7 @@ def bad_start(assumed: Assumed) -> Result:
         obtained={
             "lost": len(lost),
             "begun": int(begun.sum()),
-            "share": float(no_path[begun].mean())  # type: ignore[index]
-            if begun.any()
-            else None,
+            "share": float(no_path[begun].mean()) if begun.any() else None,  # type: ignore[index]
             "mostly": found.name.lower().replace("_", " ") if found is not None else None,
         },
         caption=caption("claim_bad_start", positions=len(grid.points)),
