@@ -45,9 +45,9 @@ lab: $(VENV)/.lab  ## open the pages as notebooks in JupyterLab
 notebooks-test: $(VENV)/.installed  ## run every notebook of the built book from a wheel, outside the clone
 	$(BIN)/python tools/notebooks_test.py
 
-test: $(VENV)/.installed  ## run the whole test suite
+test: $(VENV)/.installed  ## run the test suite, the long tests in `make trust`
 	$(BIN)/python tools/prerun.py --records
-	$(BIN)/python -m pytest -n auto --dist loadfile
+	$(BIN)/python -m pytest -n auto
 
 verify: $(VENV)/.installed  ## recompute every item from nothing and compare with data/results
 	$(BIN)/dualarm verify

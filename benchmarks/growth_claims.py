@@ -9,7 +9,7 @@ from typing import Any
 
 #: Bounds. A doubling may take 5 % more than twice as long, which is noise of the clock and caches.
 DOUBLING, NOISE, SMALLEST = 2.0, 1.05, 1_000
-PEAK_MB, TWO_WORKERS = 2_000.0, 1.8
+PEAK_MB, TWO_WORKERS = 2.0 * 1024**3 / 1e6, 1.8  # 2 GiB
 
 
 def judged(curves: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:

@@ -62,6 +62,7 @@ def cold(arguments: list[str], changed: Mapping[str, str] | None = None) -> None
     """
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
     environment = {**os.environ, "PYTHONPATH": path, **(changed or {})}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # nobody compiles every library every time
     made = subprocess.run(
         [sys.executable, *arguments], capture_output=True, text=True, env=environment
     )

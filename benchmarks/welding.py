@@ -51,6 +51,8 @@ def measure() -> Iterator[Row]:
             1e-8,
         ),
     )
+    if find_spec("roboticstoolbox"):
+        yield from _roboticstoolbox(cell, jobs)
     yield timed(FITNESS, OURS, lambda: placement(near), POSITIONS, check=reference())
     yield timed(
         FITNESS,
@@ -63,8 +65,6 @@ def measure() -> Iterator[Row]:
             1e-6,
         ),
     )
-    if find_spec("roboticstoolbox"):
-        yield from _roboticstoolbox(cell, jobs)
     yield timed(
         RUN, OURS, lambda: evolve(placement, BOX, GeneticSettings(), np.random.default_rng(1)), 1
     )
@@ -93,7 +93,7 @@ def _roboticstoolbox(cell: Cell, jobs: Jobs) -> Iterator[Row]:
         return w
 
     check = same(lambda: jobs.w[0], found, 1e-6)
-    yield timed(FITNESS, "roboticstoolbox IK and manipulability", found, 1, check=check)
+    yield timed(PATHS, "roboticstoolbox IK and manipulability", found, 1, check=check)
 
 
 def _by_coal(placement: Placement, jobs: Jobs) -> float:

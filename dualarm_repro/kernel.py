@@ -8,6 +8,7 @@ the field names of the named tuples that it is given, whose classes may be anywh
 from __future__ import annotations
 
 import os
+import pickle
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -22,6 +23,7 @@ from numba import njit, types
 from numba.core.caching import (
     CompileResultCacheImpl,
     FunctionCache,
+    IndexDataCacheFile,
     NullCache,
     _CacheLocator,
 )
@@ -79,6 +81,38 @@ class _Implementation(CompileResultCacheImpl):
     _locator_classes = [_Locator]  # noqa: RUF012 - the name and type numba looks for
 
 
+class _Sealed(IndexDataCacheFile):
+    """Machine code that is believed only with the hash it was written with.
+
+    What is damaged would end the process, or compute something else; it is compiled again.
+    """
+
+    def _dump(self, obj: Any) -> bytes:
+        written = super()._dump(obj)
+        return sha256(written).digest() + written
+
+    def _load_index(self) -> dict[Any, str]:
+        try:
+            with open(self._index_path, "rb") as file:
+                version = pickle.load(file)
+                stamp, overloads = pickle.loads(_unsealed(file.read()))
+        except Exception:  # whatever damaged bytes make of it
+            return {}
+        return overloads if (version, stamp) == (self._version, self._source_stamp) else {}
+
+    def _load_data(self, name: str) -> Any:
+        written = Path(self._data_path(name)).read_bytes()
+        return pickle.loads(_unsealed(written))
+
+
+def _unsealed(written: bytes) -> bytes:
+    """What stands behind its hash; OSError, which numba takes for a miss, if it is another."""
+    seal, rest = written[:32], written[32:]
+    if sha256(rest).digest() != seal:
+        raise OSError("not what was written")
+    return rest
+
+
 @cache
 def _say_once() -> None:
     """Tell who watches, once in a process, what the first use of a function takes its time for."""
@@ -93,6 +127,19 @@ class _NoCache(NullCache):
 
 class _Cache(FunctionCache):
     _impl_class = _Implementation
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        place = self._impl.locator
+        self._cache_file = _Sealed(
+            self._cache_path, self._impl.filename_base, place.get_source_stamp()
+        )
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            super().save_overload(sig, data)
+        except OSError:
+            return  # a cache that cannot be written only costs time
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         found = super().load_overload(sig, target_context)

@@ -52,6 +52,7 @@ class Graph:
     def __init__(self, folder: Path, index: Path | None = None) -> None:
         self._folder, self._index_file = folder, index
         self._modules: dict[str, Module] = {}
+        self._followed: dict[str, tuple[str, ...]] = {}
         self._index: dict[str, Any] = _read_index(index)
         self._new = False
 
@@ -108,11 +109,18 @@ class Graph:
             if name in reached:
                 continue
             reached.add(name)
-            for entry in self.module(name).imports:
-                found = self.defining(entry.module, entry.name) if entry.name else [entry.module]
-                waiting += [one for one in found if one in self.files and not cut(one)]
+            waiting += [one for one in self._imported(name) if one not in reached and not cut(one)]
         self.save()
         return tuple(sorted(reached))
+
+    def _imported(self, name: str) -> tuple[str, ...]:
+        """Modules of the package that a module depends on at once."""
+        if name not in self._followed:
+            found: list[str] = []
+            for entry in self.module(name).imports:
+                found += self.defining(entry.module, entry.name) if entry.name else [entry.module]
+            self._followed[name] = tuple(dict.fromkeys(one for one in found if one in self.files))
+        return self._followed[name]
 
     def digest(self, modules: Iterable[str]) -> str:
         """SHA-256 over names and code of modules."""

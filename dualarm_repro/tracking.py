@@ -141,11 +141,12 @@ def kept_with_owner(function: Callable[[Owner], T]) -> Callable[[Owner], T]:
     kept: WeakKeyDictionary[Any, T] = WeakKeyDictionary()
 
     @wraps(function)
-    def answer(owner: Owner) -> T:
+    def answer(*owner: Any, **named: Any) -> T:
+        (key,) = (*owner, *named.values())
         try:
-            return kept[owner]
+            return kept[key]
         except KeyError:
-            value = kept[owner] = function(owner)
+            value = kept[key] = function(*owner, **named)
             return value
 
     return answer

@@ -1,12 +1,15 @@
-"""Shared by all tests: a registry, and a quiet and reproducible hypothesis profile.
+"""Shared by all tests: a registry, a quiet and reproducible hypothesis profile, the long tests.
 
 Records come from the cache of the user, each kept under what it depends on: the suite computes each
-once, and the book built after it none.
+once, and the book built after it none. A test that is marked ``long`` runs in ``make trust``; what
+it tries, another test tries in short, or the mark gives the reason why none does.
 """
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
+from long_tests import COLLECTED
+from schedule import DearestFirst, cost_of, group_of
 
 mpl.use("agg")
 settings.register_profile("reproducible", deadline=None, derandomize=True, print_blob=True)
@@ -19,3 +22,21 @@ def registry():
     from dualarm_repro.papers import load
 
     return load()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Before the long tests are left out, remember them; what takes longest starts first."""
+    config.stash[COLLECTED] = [
+        (item.nodeid, mark and dict(mark.kwargs))
+        for item in items
+        for mark in [item.get_closest_marker("long")]
+    ]
+    items.sort(key=lambda item: -cost_of(group_of(item.nodeid)))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Groups by what they share, in the order above."""
+    config.option.loadscopereorder = False
+    return DearestFirst(config, log)

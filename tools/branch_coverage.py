@@ -18,7 +18,8 @@ from dualarm_repro.ledger.files import to_json, write_text
 ROOT = Path(__file__).resolve().parents[1]
 STORED = ROOT / "data" / "results" / "coverage.json"
 SETTINGS = ROOT / "tools" / "coverage.ini"
-SUITE = ("-n", "auto", "--dist", "loadfile")
+#: Long tests too, which an empty mark does not leave out.
+SUITE = ("-n", "auto", "-m", "")
 
 
 def by_room(files: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

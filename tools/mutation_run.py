@@ -20,7 +20,9 @@ from dualarm_repro.ledger.trust.mutants import Mutant, sample
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "dualarm_repro"
-ROOMS = tuple(f"{PACKAGE}/{room}" for room in ("arms", "scene", "planning", "control", "welding"))
+ROOMS = tuple(
+    f"{PACKAGE}/{room}" for room in ("arms", "scene", "planning", "control", "welding", "ledger")
+)
 SEED, PER_ROOM = 20200344, 8
 #: CPU seconds that the checks of one mutant, and its tests, may take.
 LIMIT, TEST_LIMIT = 240, 600

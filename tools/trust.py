@@ -14,8 +14,10 @@ RESULTS = TOOLS.parent / "data" / "results"
 #: Hostile inputs of the long form, beside those that the tests try.
 CASES = 100_000
 PARTS: dict[str, tuple[str, ...]] = {
+    "run_long_tests": (),
     "fuzz": ("--cases", str(CASES), "--out", str(RESULTS / "fuzz.json")),
     "faults": (),
+    "determinism": (),
     "trust_ledger": (),
     "install_matrix": ("--resume",),
     "branch_coverage": (),

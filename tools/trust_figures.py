@@ -71,6 +71,12 @@ def rows(results: Path, tests: Path) -> Iterator[tuple[str, str, str]]:
         yield "faults", ABSENT, ""
     for kind, found in (faults or {"counts": {}})["counts"].items():
         yield f"faults: {kind}", str(found["tried"]), f"{found['survived']} survived"
+    again = _stored(results, "determinism")
+    if again is None:
+        yield "computed again in other circumstances", ABSENT, ""
+    for name, found in (again or {"counts": {}})["counts"].items():
+        number = f"{found['items']} items, {found['cells']} cells of studies"
+        yield f"computed again: {name}", number, f"{found['otherwise']} otherwise"
     ledger = _stored(results, "trust")
     for name, found in (ledger or {"counts": {}})["counts"].items():
         yield (

@@ -69,7 +69,7 @@ def outcomes(
         The process failed.
     """
     made = scratch / f"{setting.name}.json"
-    done = run(setting, [str(_OUTCOMES), str(made), str(cells), *item_ids], scratch)
+    done = run(setting, [str(_OUTCOMES), str(made), str(cells), "1", *item_ids], scratch)
     if done.returncode or not made.is_file():
         raise RuntimeError(f"{setting.name}: the process ended with {done.returncode}")
     return json.loads(made.read_text(encoding="utf-8"))

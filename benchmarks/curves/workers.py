@@ -15,7 +15,8 @@ from dualarm_repro.ledger.workers import results
 from dualarm_repro.papers import load
 
 TITLE, X = "cells of a stored study", "worker processes"
-SECONDS = 1.0  # of one worker
+SECONDS, LEAST = 1.0, 8  # of one worker, and cells: fewer cannot be shared evenly
+SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
 CHUNKS = 64  # as many as a study hands out
 ROUNDS = 3
 MEMORY = False  # of the workers is not seen here
@@ -23,9 +24,10 @@ MEMORY = False  # of the workers is not seen here
 
 def series() -> list[Series]:
     """One series a study whose peers are here, over as many of its cells, drawn with a seed, as
-    take one worker about a second. The workers have started before."""
+    take one worker about a second, and at least eight. The workers have started before."""
     sizes = tuple(n for n in (1, 2, 4, 8) if n <= (os.cpu_count() or 1))
     studies = [study for study in load().studies.values() if not study.missing_peers()]
+    studies = [study for study in studies if sum(_drawn(study.name).values()) > SMALLEST]
     return [
         Series(study.name, lambda n, study=study: _by(n, study), sizes, rounds=ROUNDS)
         for study in studies
@@ -33,7 +35,8 @@ def series() -> list[Series]:
 
 
 def _by(workers: int, study: Study) -> Callable[[], object]:
-    cells, chosen = study.cells(), _drawn(study.name)
+    cells, spent = study.cells(), _drawn(study.name)
+    chosen = sorted(spent, key=lambda k: -spent[k])  # the longest first, as in any fair share
     parts = [part.tolist() for part in np.array_split(chosen, min(CHUNKS, len(chosen)))]
 
     def run() -> list[object]:
@@ -48,16 +51,18 @@ def _computed(study: Study, numbered: list[tuple[int, dict[str, object]]]) -> li
 
 
 @cache
-def _drawn(name: str) -> list[int]:
-    """Numbers of the cells of a study that are computed, the same for any number of workers."""
+def _drawn(name: str) -> dict[int, float]:
+    """Cells of a study that are computed, the same for any number of workers, by their number, and
+    the seconds that each takes."""
     study = load().studies[name]
     cells = study.cells()
     order = np.random.default_rng(0).permutation(len(cells)).tolist()
     study.cell(order[0], cells[order[0]])  # compiles
-    chosen, begun = [], perf_counter()
+    spent: dict[int, float] = {}
     for k in order:
+        begun = perf_counter()
         study.cell(k, cells[k])
-        chosen.append(k)
-        if perf_counter() - begun > SECONDS:
+        spent[k] = perf_counter() - begun
+        if len(spent) >= LEAST and sum(spent.values()) > SECONDS:
             break
-    return chosen
+    return spent

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 import pinocchio as pin
-from scipy.stats import binomtest
+import scipy
 
 from ..errors import InputError
 from .arm import Arm
@@ -118,7 +118,7 @@ def _inside(points: np.ndarray, reached: Occupancy, placed: _Placed) -> np.ndarr
 
 
 def _proportion(hits: int, trials: int, scale: float = 1.0) -> Estimate:
-    test = binomtest(hits, trials)
+    test = scipy.stats.binomtest(hits, trials)
     interval = test.proportion_ci(CONFIDENCE, method="wilson")
     return Estimate(*(scale * float(p) for p in (test.statistic, interval.low, interval.high)))
 

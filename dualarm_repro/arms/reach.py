@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
-from scipy.optimize import minimize
+import scipy
 
 from .arm import Arm
 
@@ -27,7 +27,9 @@ def largest_reach(arm: Arm, rng: np.random.Generator, draws: int = 20_000) -> fl
         point = arm.fk(configuration)[:3, 3]
         return -float(point @ point), -2.0 * point @ arm.jacobian(configuration)[:3]
 
-    found = minimize(negative_square, best, jac=True, method="BFGS", options={"gtol": 1e-10})
+    found = scipy.optimize.minimize(
+        negative_square, best, jac=True, method="BFGS", options={"gtol": 1e-10}
+    )
     return float(np.sqrt(-found.fun))
 
 

@@ -52,4 +52,7 @@ def solve_statement(problem: QuadraticProgram) -> Solution:
         raise NoSolution("cvxpy", problem, stated.status)
     y = rest.pop(0).dual_value if m else np.zeros(0)
     z = rest.pop(0).dual_value if k else np.zeros(0)
-    return Solution(problem, x.value, y, z, high.dual_value - low.dual_value)
+    # What stands for an absent bound has no multiplier; the certificate judges what is left.
+    above = np.where(np.isfinite(problem.upper), high.dual_value, 0.0)
+    below = np.where(np.isfinite(problem.lower), low.dual_value, 0.0)
+    return Solution(problem, x.value, y, z, above - below)

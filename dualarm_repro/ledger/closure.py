@@ -7,7 +7,6 @@ can reach.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
@@ -128,5 +127,4 @@ def _hash_input(registry: Registry, name: str) -> str:
         return hash_file(Path(__file__).resolve().parents[2] / name)
     if "#" not in name:
         return hash_file(data_path(*Path(name).parts))
-    text = json.dumps(registry.part(name), sort_keys=True, ensure_ascii=False)
-    return sha256(text.encode()).hexdigest()
+    return registry.part_digest(name)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
+from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -72,6 +74,7 @@ class Registry:
         self._checkers: dict[str, Checker] = {}
         self._proofs: dict[str, Prove] = {}
         self._studies: dict[str, Study] = {}
+        self._digests: dict[str, tuple[PaperFile, str]] = {}
         self.reopen = reopen or (lambda: self)
         self.nudge: Callable[[int], None] | None = None
 
@@ -243,13 +246,25 @@ class Registry:
 
         Looking at it to see whether it changed is no dependency, so nothing is noted.
         """
-        path, _, fields = name.partition("#")
-        document = Path(path).stem
-        self._read(document)
-        found: Any = self._papers[document]
+        paper, _, fields = name.partition("#")
+        found: Any = self._document(paper)
         for field in fields.split(".") if fields else ():
             found = found.get(field) if isinstance(found, dict) else getattr(found, field, None)
         return to_jsonable_python(found)
+
+    def part_digest(self, name: str) -> str:
+        """SHA-256 of a part; computed once for a document, since records name the same parts."""
+        paper = self._document(name.partition("#")[0])
+        if name not in self._digests or self._digests[name][0] is not paper:
+            text = json.dumps(self.part(name), sort_keys=True, ensure_ascii=False)
+            self._digests[name] = paper, sha256(text.encode()).hexdigest()
+        return self._digests[name][1]
+
+    def _document(self, path: str) -> PaperFile:
+        """The document of ``papers/<id>.yaml``."""
+        name = path.rpartition("/")[2].removesuffix(".yaml")
+        self._read(name)
+        return self._papers[name]
 
     @contextmanager
     def with_printed(self, item_id: str, value: Any) -> Iterator[None]:

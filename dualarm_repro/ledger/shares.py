@@ -28,4 +28,7 @@ class Share(NamedTuple):
         p, n = count / total, float(total)
         centre = (p + _Z**2 / (2 * n)) / (1 + _Z**2 / n)
         half = _Z * sqrt(p * (1 - p) / n + _Z**2 / (4 * n**2)) / (1 + _Z**2 / n)
-        return cls(float(p), max(0.0, centre - half), min(1.0, centre + half))
+        # None and all are ends themselves, which rounding may miss.
+        low = 0.0 if p == 0 else max(0.0, centre - half)
+        high = 1.0 if p == 1 else min(1.0, centre + half)
+        return cls(float(p), low, high)

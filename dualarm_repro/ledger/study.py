@@ -176,8 +176,8 @@ class Study:
             "table_sha256": hash_file(self.table_path),
         }
         write_text(self.meta_path, to_json(meta))
-        for path in folder.glob("*.json"):
-            path.unlink()
+        for chunk in chunks:  # another run of the same study may remove them too
+            _chunk_path(folder, chunk).unlink(missing_ok=True)
         return table
 
     def _known(self) -> Registry:

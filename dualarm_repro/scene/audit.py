@@ -10,8 +10,7 @@ from typing import Any
 import coal
 import numpy as np
 import pinocchio as pin
-from scipy.spatial import ConvexHull
-from scipy.stats import qmc
+import scipy
 
 from ..arms import load_arm
 from ..arms.arm import Arm
@@ -134,13 +133,13 @@ def excess(arm: Arm) -> float:
         radii = [one.geometry.radius for one in capsules]
         corners = np.concatenate([np.array(pair) for pair in ends])
         low, high = corners.min(axis=0) - max(radii), corners.max(axis=0) + max(radii)
-        probes = low + qmc.Halton(3, seed=0).random(_PROBES) * (high - low)
+        probes = low + scipy.stats.qmc.Halton(3, seed=0).random(_PROBES) * (high - low)
         in_capsule, in_part = (np.zeros(_PROBES, dtype=bool) for _ in range(2))
         for one, pair, radius in zip(capsules, ends, radii, strict=True):
             inside = to_segment(probes, *pair) <= radius
             in_capsule |= inside
             if one.name in arm.hulls:
-                planes = ConvexHull(arm.hulls[one.name]).equations
+                planes = scipy.spatial.ConvexHull(arm.hulls[one.name]).equations
                 inside &= (probes @ planes[:, :3].T + planes[:, 3] <= 0.0).all(axis=1)
             in_part |= inside
         volumes += np.prod(high - low) * np.array([in_capsule.mean(), in_part.mean()])

@@ -45,6 +45,8 @@ def signed_distance(a: Annotated[Shape, LATER], b: Annotated[Shape, LATER]) -> W
     InputError
         Neither shape is a sphere or a capsule.
     """
+    if not isinstance(a, Sphere | Capsule | Box | HalfSpace | ConvexHull):
+        raise not_a_shape("signed_distance", a, "a")
     if not isinstance(a, Sphere | Capsule):
         if not isinstance(b, Sphere | Capsule):
             names = f"{type(a).__name__}, {type(b).__name__}"
@@ -65,5 +67,5 @@ def signed_distance(a: Annotated[Shape, LATER], b: Annotated[Shape, LATER]) -> W
             pose = np.eye(3, 4)[np.newaxis, np.newaxis]
             capsules_hull(ends, radius, pose, b.polytope, 0, _FIRST, distance, witness)
         case _:
-            raise not_a_shape("signed_distance", b)
+            raise not_a_shape("signed_distance", b, "b")
     return Witness(float(distance[0, 0]), *witness[0, 0])

@@ -32,7 +32,7 @@ _WAITING = 512
 # Places in the buffer of a block: sine, cosine, rotation (row major), origin, parameter, half
 # stretch.
 _COS, _ROT, _POS, _AT, _HALF = (k * LANES for k in (1, 2, 11, 14, 15))
-_PLACES = 16 * LANES
+PLACES = 16 * LANES
 
 
 @kernel
@@ -41,7 +41,7 @@ def edge_buffers(model):
     capsules (middle and half core), ways of the capsules, stretches that wait."""
     capsules, joints = model.lever.shape
     return (
-        np.zeros(_PLACES),
+        np.zeros(PLACES),
         np.zeros((3, joints * LANES)),
         np.zeros(LANES),
         np.zeros((capsules, 6 * LANES)),
@@ -73,7 +73,8 @@ def edge_free(model, start, end, margin, known, buffers):
             row = count + min(k, rows - 1)
             w[_AT + k], w[_HALF + k] = waiting[row, 0], waiting[row, 1]
             halves[k] = waiting[row, 1]
-        pose_block(model, start, end, w, turns, ends)
+        set_joints(start, end, w, turns)
+        place_block(model, w, turns, ends)
         looked += rows
         unsure = unsure_lanes(model, margin, known, travel, halves, ends)
         if unsure < 0:
@@ -87,14 +88,6 @@ def edge_free(model, start, end, margin, known, buffers):
                 waiting[count + 1, 0], waiting[count + 1, 1] = w[_AT + k] + half, half
                 count += 2
     return True, looked
-
-
-@kernel
-def edges_free(model, starts, ends, margin, free, looked):
-    """:func:`edge_free` of edges (E, nq) into ``free`` and ``looked`` (E,)."""
-    buffers = edge_buffers(model)
-    for n in range(len(starts)):
-        free[n], looked[n] = edge_free(model, starts[n], ends[n], margin, False, buffers)
 
 
 @kernel
@@ -113,11 +106,23 @@ def set_travel(model, start, end, travel):
 
 
 @kernel
-def pose_block(model, start, end, w, turns, ends):
-    """Capsules of the controlled arms at the parameters of a block."""
-    capsule = 0
-    _set_turns(model, start, end, w, turns)
+def set_joints(start, end, w, turns):
+    """Joints ``turns[0]`` [rad, m] at the parameters of a block."""
     for j in range(len(start)):
+        base, change = start[j], end[j] - start[j]
+        for k in range(LANES):
+            turns[0, j * LANES + k] = base + w[_AT + k] * change
+
+
+@kernel
+def place_block(model, w, turns, ends):
+    """Capsules ``ends`` of the controlled arms where ``turns[0]`` are the joints [rad, m]."""
+    capsule = 0
+    _set_turns(turns)
+    for j in range(len(model.begins)):
+        if model.slides[j]:
+            for k in range(LANES):
+                turns[1, j * LANES + k], turns[2, j * LANES + k] = 0.0, 1.0
         for k in range(LANES):
             w[k] = turns[1, j * LANES + k]
         for k in range(LANES):
@@ -129,7 +134,7 @@ def pose_block(model, start, end, w, turns, ends):
         if model.slides[j]:
             for r in range(3):
                 for k in range(LANES):
-                    way = start[j] + w[_AT + k] * (end[j] - start[j])
+                    way = turns[0, j * LANES + k]
                     w[_POS + r * LANES + k] += way * w[_ROT + (3 * r + 2) * LANES + k]
         for c in range(capsule, model.until[j]):
             _place(model.middle[c], model.core[c], w, ends[c])
@@ -137,16 +142,10 @@ def pose_block(model, start, end, w, turns, ends):
 
 
 @kernel
-def _set_turns(model, start, end, w, turns):
-    """Angle, sine and cosine of all joints in all lanes, (3, n LANES); 0 of joints that slide."""
-    for j in range(len(start)):
-        base, change = start[j], end[j] - start[j]
-        if model.slides[j]:
-            base, change = 0.0, 0.0
-        for k in range(LANES):
-            turns[0, j * LANES + k] = base + w[_AT + k] * change
+def _set_turns(turns):
+    """Sine and cosine of all joints in all lanes, (3, n LANES)."""
     angle, sine, cosine = turns[0], turns[1], turns[2]
-    for k in range(len(start) * LANES):
+    for k in range(len(angle)):
         s, c = sincos(angle[k])
         sine[k] = s
         cosine[k] = c

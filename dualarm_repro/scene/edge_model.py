@@ -50,8 +50,9 @@ class EdgeModel(NamedTuple):
     Joints: transforms ``rotation`` (n, 3, 3) and ``translation`` (n, 3) from the joint before,
     whether the joint ``begins`` an arm (n,) and whether it ``slides`` (n,), and ``until`` (n,)
     which capsule it or a joint before carries. Capsules: ``middle`` and half ``core`` (C, 3) in the
-    frame of the joint, ``radius`` and ``extent`` (C,) [m], and ``lever`` (C, n): greatest way per
-    way of a joint. ``pairs`` (P, 4): two capsules and the joints from which on each is moved
+    frame of the joint, ``radius`` and ``extent`` (C,) [m], ``lever`` (C, n): greatest way per way
+    of a joint, and ``moved`` (C, 2): the first joint of its arm and the last that moves it, plus
+    one. ``pairs`` (P, 4): two capsules and the joints from which on each is moved
     relative to the other; pairs of a capsule with what stands (K, 2), by sort. Bodies that no joint
     moves relative to each other are ``between_standing`` apart [m].
     """
@@ -66,6 +67,7 @@ class EdgeModel(NamedTuple):
     radius: np.ndarray
     extent: np.ndarray
     lever: np.ndarray
+    moved: np.ndarray
     pairs: np.ndarray
     standing_pairs: np.ndarray
     box_pairs: np.ndarray
@@ -121,6 +123,7 @@ def edge_model(scene: Scene, left_out: frozenset[int] = frozenset()) -> EdgeMode
         radius,
         np.linalg.norm(half, axis=1),
         lever,
+        _moved(scene, carried, lever),
         both,
         standing,
         boxes,
@@ -171,6 +174,14 @@ def _capsules(scene: Scene, carried: Sequence[Body]) -> tuple[np.ndarray, np.nda
         radius[k] = links[body.owner].radius[body.link]
         lever[k, scene.columns[body.owner]] = levers[body.owner][body.link]
     return core, radius, lever
+
+
+def _moved(scene: Scene, carried: Sequence[Body], lever: np.ndarray) -> np.ndarray:
+    first = np.array([_first(scene, body.owner) for body in carried], dtype=np.int64)
+    after = [
+        row.nonzero()[0][-1] + 1 if row.any() else k for k, row in zip(first, lever, strict=True)
+    ]
+    return np.stack([first, np.array(after, dtype=np.int64)], axis=1)
 
 
 def _pairs(

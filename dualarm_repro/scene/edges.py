@@ -7,8 +7,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked
+from ..arms.angle import LARGEST
 from ..errors import ConfigurationError, InputError
-from .edge_kernels import edges_free
+from .edge_batches import edges_free
 from .edge_model import edge_model
 from .scene import Scene
 
@@ -16,13 +18,14 @@ from .scene import Scene
 _FEW = 64
 
 
+@checked
 def free_edges(
     scene: Scene, starts: ArrayLike, ends: ArrayLike, margin: float = 0.0, jobs: int = 1
 ) -> np.ndarray:
     """Whether d_k(q) > ``margin`` for every watched pair k and every q on each edge, (E,) of bool.
 
     True is a proof: between the configurations that are looked at no pair can come nearer (see
-    :mod:`.edge_kernels`). Capsules of one arm are compared as they are, without the hulls within
+    :mod:`.edge_batches`). Capsules of one arm are compared as they are, without the hulls within
     them (:mod:`.hull_pairs`), so that an edge can be free although the answer is False, never the
     other way round; so too where a pair keeps the margin by less than 0.02 mm.
 
@@ -38,8 +41,8 @@ def free_edges(
     Raises
     ------
     ConfigurationError, InputError
-        Ends of the wrong shape, with NaN or infinity; a margin or number of threads out of range;
-        a body that moves by itself.
+        Ends of the wrong shape, with NaN or infinity, or angles of which nothing is left but whole
+        turns; a margin or number of threads out of range; a body that moves by itself.
     """
     first, last = (np.atleast_2d(scene.configurations(end)) for end in (starts, ends))
     if first.shape != last.shape:
@@ -54,6 +57,9 @@ def free_edges(
     if (np.abs([first, last]) > widest).any():
         expected = "joints that slide within their limits"
         raise ConfigurationError("free_edges", "edges", "a slide beyond them", expected)
+    if (np.abs([first, last]) > np.where(model.slides, np.inf, LARGEST)).any():
+        expected = f"angles of at most {LARGEST:g} rad"
+        raise ConfigurationError("free_edges", "edges", "a larger one", expected)
     free, looked = np.empty(len(first), dtype=np.bool_), np.empty(len(first), dtype=np.int64)
 
     def run(rows: slice) -> None:

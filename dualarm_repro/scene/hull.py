@@ -7,9 +7,9 @@ from typing import Annotated
 import coal
 import numpy as np
 import pinocchio as pin
+import scipy
 from numpy.typing import ArrayLike
 from pydantic import Field
-from scipy import spatial
 
 from ..arguments import Shape, checked
 from ..arms.fit.triangles import convex
@@ -52,8 +52,8 @@ class ConvexHull:
         expected = "at least four finite points (M, 3) that do not lie in one plane"
         points = array_of("ConvexHull", "points", points, (None, 3), expected)
         try:
-            hull = spatial.ConvexHull(points)
-        except (ValueError, spatial.QhullError):
+            hull = scipy.spatial.ConvexHull(points)
+        except (ValueError, scipy.spatial.QhullError):
             raise InputError("ConvexHull", "points", points, expected) from None
         self.vertices = frozen(points[hull.vertices])
         number = np.zeros(len(points), dtype=int)

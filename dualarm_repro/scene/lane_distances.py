@@ -9,6 +9,8 @@ the length of the core, ``way`` the relative way over the edge [m].
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..kernel import inlined, kernel
 from .boxes import segment_box_distance
 from .polytope import Polytope, segment_polytope
@@ -16,7 +18,7 @@ from .segments import PARALLEL
 from .vectors import into_frame, rotated_back
 
 LANES = 16
-_X, _Y, _Z, _U, _V, _W = (k * LANES for k in range(6))
+_X, _Y, _Z, _U, _V, _W, _SQUARE = (k * LANES for k in range(7))
 
 
 @kernel
@@ -65,6 +67,55 @@ def _gap(x, y, z, u, v, w, e, f, g, uu, vv):
     s = _clamp(((x + t * e) * u + (y + t * f) * v + (z + t * g) * w) * iu)
     x, y, z = x + t * e - s * u, y + t * f - s * v, z + t * g - s * w
     return x * x + y * y + z * z
+
+
+@kernel
+def capsule_lanes(ends, radius, pairs, distance):
+    """d = |core distance| - r_a - r_b of every pair (K, 2) for whole blocks of configurations,
+    ``distance`` (N, K); ``ends`` (N, C, 2, 3), ``radius`` (C,)."""
+    w, gaps = np.empty((ends.shape[1], 7 * LANES)), np.empty(LANES)
+    for start in range(0, len(distance), LANES):
+        for c in range(len(w)):
+            _fill(ends[start : start + LANES, c], w[c])
+        for n in range(len(pairs)):
+            i, j = pairs[n]
+            _gaps(w[i], w[j], gaps)
+            for k in range(LANES):
+                distance[start + k, n] = gaps[k] - radius[i] - radius[j]
+
+
+@kernel
+def _fill(ends, out):
+    """Middles, half cores and their squared lengths of one capsule (LANES, 2, 3)."""
+    for k in range(LANES):
+        square = 0.0
+        for r in range(3):
+            first, last = ends[k, 0, r], ends[k, 1, r]
+            half = 0.5 * (last - first)
+            out[r * LANES + k] = first + half
+            out[(3 + r) * LANES + k] = half
+            square += half * half
+        out[_SQUARE + k] = square
+
+
+@kernel
+def _gaps(a, b, out):
+    """Distances of the cores of two capsules."""
+    for k in range(LANES):
+        square = _gap(
+            b[_X + k] - a[_X + k],
+            b[_Y + k] - a[_Y + k],
+            b[_Z + k] - a[_Z + k],
+            a[_U + k],
+            a[_V + k],
+            a[_W + k],
+            b[_U + k],
+            b[_V + k],
+            b[_W + k],
+            a[_SQUARE + k],
+            b[_SQUARE + k],
+        )
+        out[k] = square**0.5
 
 
 @kernel

@@ -14,8 +14,7 @@ from pathlib import Path
 
 import coal
 import numpy as np
-from scipy.spatial import ConvexHull as Qhull
-from scipy.spatial import QhullError
+import scipy
 
 from ..errors import DataFileError
 from ..input_files import LARGEST_MESH, require_regular
@@ -70,8 +69,8 @@ def mesh_parts(path: Path, scale: tuple[float, float, float], most: int) -> tupl
     """
     vertices, faces = read_mesh(path, scale)
     try:
-        whole = Qhull(vertices)
-    except (QhullError, ValueError):
+        whole = scipy.spatial.ConvexHull(vertices)
+    except (scipy.spatial.QhullError, ValueError):
         raise DataFileError(path, "triangles", len(faces), "a mesh that spans a volume") from None
     if most == 1 or len(whole.vertices) == len(np.unique(faces)):
         return (ConvexHull(vertices),)
@@ -81,7 +80,7 @@ def mesh_parts(path: Path, scale: tuple[float, float, float], most: int) -> tupl
 
 def covering(pieces: list[np.ndarray], triangles: np.ndarray) -> tuple[ConvexHull, ...]:
     """Hulls of point sets grown until each of the triangles (F, 3, 3) lies in one of them."""
-    hulls = [Qhull(points) for points in pieces]
+    hulls = [scipy.spatial.ConvexHull(points) for points in pieces]
     excess = np.empty((len(triangles), len(hulls)))
     for column, hull in zip(excess.T, hulls, strict=True):
         heights = triangles @ hull.equations[:, :3].T + hull.equations[:, 3]
@@ -124,8 +123,8 @@ def _decomposed(vertices: np.ndarray, faces: np.ndarray, most: int) -> list[np.n
     solid = []
     for points, _ in found:
         try:
-            Qhull(points)
-        except (QhullError, ValueError):
+            scipy.spatial.ConvexHull(points)
+        except (scipy.spatial.QhullError, ValueError):
             continue
         solid.append(np.asarray(points))
     return solid or [vertices]

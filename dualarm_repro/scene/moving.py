@@ -12,8 +12,8 @@ from typing import Annotated
 
 import numpy as np
 import pinocchio as pin
+import scipy
 from numpy.typing import ArrayLike
-from scipy.spatial.transform import Rotation
 
 from ..arguments import LATER, Shape, checked
 from ..arms.arm import Arm
@@ -106,14 +106,18 @@ class PosePath(_Track):
             "PosePath", "poses", [pose.rotation for pose in poses], (None, 3, 3), "finite poses"
         )
         relative = self.rotation[:-1].transpose(0, 2, 1) @ self.rotation[1:]
-        self._turn = np.vstack([Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))])
+        self._turn = np.vstack(
+            [scipy.spatial.transform.Rotation.from_matrix(relative).as_rotvec(), np.zeros((1, 3))]
+        )
         self._step = np.vstack([np.diff(self.translation, axis=0), np.zeros((1, 3))])
 
     @checked
     def at(self, time: Times) -> np.ndarray:
         """T(t) for times (N,), upper parts (N, 3, 4)."""
         k, fraction = self._locate(time)
-        turned = Rotation.from_rotvec(fraction[:, None] * self._turn[k]).as_matrix()
+        turned = scipy.spatial.transform.Rotation.from_rotvec(
+            fraction[:, None] * self._turn[k]
+        ).as_matrix()
         translation = self.translation[k] + fraction[:, None] * self._step[k]
         return np.concatenate([self.rotation[k] @ turned, translation[:, :, None]], axis=2)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from ..kernel import kernel
 from .boxes import segment_box, segment_box_distance
+from .lane_distances import LANES, capsule_lanes
 from .polytope import segment_polytope
 from .segments import closest_parameters, segment_segment
 from .vectors import along, dot, into_frame, minus, out_of_frame, rotated, scaled, vector
@@ -27,7 +28,10 @@ def _write(witness, p, q, normal):
 @kernel
 def capsules_capsules(ends, radius, pairs, distance, witness):
     """d = |core distance| - r_a - r_b; ``ends`` (N, C, 2, 3), ``radius`` (C,)."""
-    for n in range(len(distance)):
+    blocks = 0 if witness.size else len(distance) // LANES * LANES
+    if blocks:
+        capsule_lanes(ends, radius, pairs, distance[:blocks])
+    for n in range(blocks, len(distance)):
         for k in range(len(pairs)):
             i, j = pairs[k]
             a, b = vector(ends[n, i, 0]), vector(ends[n, j, 0])

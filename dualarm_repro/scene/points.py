@@ -126,6 +126,6 @@ def point_distances(
                 raise not_a_shape("point_distances", shape)
     leading = points.shape[:-1]
     return (
-        np.moveaxis(distance, 0, -1).reshape(*leading, -1),
-        np.moveaxis(gradient, 0, 1).reshape(*leading, -1, 3),
+        np.moveaxis(distance, 0, -1).reshape(*leading, len(shapes)),
+        np.moveaxis(gradient, 0, 1).reshape(*leading, len(shapes), 3),
     )

@@ -6,6 +6,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from ..annotation import real_array
 from ..errors import InputError
 
 
@@ -53,7 +54,7 @@ def array_of(
 ) -> np.ndarray:
     """Finite numbers of a shape as a read-only copy; None stands for any length."""
     try:
-        array = np.array(value, dtype=float)
+        array = real_array(value).copy()
     except (TypeError, ValueError, OverflowError):
         raise InputError(source, name, value, expected) from None
     fits = len(shape) == array.ndim and all(

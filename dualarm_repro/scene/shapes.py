@@ -161,9 +161,9 @@ class HalfSpace:
 Shape = Sphere | Capsule | Box | HalfSpace | ConvexHull
 
 
-def not_a_shape(source: str, value: object) -> InputError:
+def not_a_shape(source: str, value: object, name: str = "shape") -> InputError:
     """The error for something that is none of the shapes."""
-    return InputError(source, "shape", value, "Sphere, Capsule, Box, HalfSpace or ConvexHull")
+    return InputError(source, name, value, "Sphere, Capsule, Box, HalfSpace or ConvexHull")
 
 
 def _set(shape: object, **values: object) -> None:

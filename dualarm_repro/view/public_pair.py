@@ -14,7 +14,6 @@ from ..arms.fit.postures import home_pose
 from ..baselines.sampling import rrt_connect
 from ..planning import FoundPath, PathProblem, PlannerSettings
 from ..planning.checks.mesh_replay import mesh_distance
-from ..planning.planner import FARTHEST
 from ..scene import PlacedArm, Scene, certified_minimum, distances, links_of
 
 OF_PAIR = ("pair_reached", "pair_reason", "pair_lower", "pair_meshes", "pair_apart")
@@ -115,8 +114,6 @@ def clear_alone(arm: Arm, rng: np.random.Generator) -> np.ndarray:
     """Postures (K, nq) in which nothing of one arm is nearer to itself than :data:`ROOM`, first
     that of home if it is one."""
     drawn = np.vstack([home_pose(arm.model), arm.random_configurations(ALONE, rng)])
-    # Of limits of 1e16 rad only the direction is left.
-    drawn = np.where((np.abs(drawn) > FARTHEST) & ~arm.slides, drawn % (2.0 * np.pi), drawn)
     scene = Scene([PlacedArm("arm", arm)])
     found: np.ndarray = drawn[distances(scene, drawn).min(axis=1, initial=np.inf) > ROOM]
     return found

@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..arms import Arm
+from ..planning.field.control_points import end_effector
 from ..scene import Box, PlacedArm, Shape, Sphere
 from .scenes.arm_parts import arm_parts, checked_parts
 from .scenes.contents import WORLD, Contents, Mark, Motion, Part
@@ -98,7 +99,7 @@ class Scene3D:
             poses = [_joint_poses(placed, q) for q in rows]
             for node in poses[0]:
                 motion.poses[node] = np.array([pose[node] for pose in poses])
-            self.contents.tips[name] = np.array([_tip(placed, q) for q in path])
+            self.contents.tips[name] = end_effector(placed, path)
 
     def move(self, node: str, poses: np.ndarray) -> None:
         """Move a node of one's own along poses (F, 4, 4), one for each key frame."""
@@ -184,7 +185,3 @@ def _joint_poses(placed: PlacedArm, q: np.ndarray) -> dict[str, np.ndarray]:
         f"{placed.name}/{joint}": (placed.placement * data.oMi[joint]).homogeneous
         for joint in range(1, placed.arm.model.njoints)
     }
-
-
-def _tip(placed: PlacedArm, q: np.ndarray) -> np.ndarray:
-    return placed.placement.act(placed.arm.fk(q)[:3, 3])

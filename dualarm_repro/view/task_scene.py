@@ -85,6 +85,15 @@ def _add_moving(made: Scene3D, scene: Scene, frames: np.ndarray) -> None:
 
 
 def _nearest(scene: Scene, rows: Mapping[str, np.ndarray], frames: np.ndarray) -> Nearest:
-    """The pairs that the scene watches, so that it shows what the summary says."""
-    found = clearance(scene, scene.stack(**rows), frames)
-    return nearest_of(found.distance, found.point_a, found.point_b, scene.pairs.bodies)
+    """The pairs that the scene watches, so that it shows what the summary says.
+
+    One key frame after the other: an array of many is laid out otherwise, and the first plan would
+    wait for the same distances to be compiled once more.
+    """
+    q = scene.stack(**rows)
+    found = [clearance(scene, row, time) for row, time in zip(q, frames, strict=True)]
+    distance, point_a, point_b = (
+        np.array([getattr(one, what) for one in found])
+        for what in ("distance", "point_a", "point_b")
+    )
+    return nearest_of(distance, point_a, point_b, scene.pairs.bodies)

@@ -34,6 +34,17 @@ def lost_page() -> Page:
     return table(pd.DataFrame(list(found["lost"].items()), columns=["lost", "times"]))
 
 
+def otherwise_page() -> Page:
+    """What came out otherwise when results were computed again in other circumstances."""
+    found = _stored("determinism")
+    if found is None:
+        return Page("<p>Nothing computed again is stored.</p>")
+    lines = [(name, line) for name, some in found["otherwise"].items() for line in some]
+    if not lines:
+        return Page(f"<p>Everything came out the same in {len(found['counts'])} circumstances.</p>")
+    return table(pd.DataFrame(lines, columns=["circumstance", "came out otherwise"]))
+
+
 def _stored(name: str) -> dict[str, Any] | None:
     path = data_path("results", f"{name}.json")
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None

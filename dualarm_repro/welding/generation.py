@@ -32,6 +32,17 @@ def sorted_by_value(individuals, values):
 
 
 @kernel
+def ranked(individuals, values):
+    """Both in falling order of the values, how many of these are positive, and the mean distance
+    of two individuals."""
+    first, second = sorted_by_value(individuals, values)
+    feasible = 0
+    while feasible < len(second) and second[feasible] > 0.0:
+        feasible += 1
+    return first, second, feasible, mean_distance(first)
+
+
+@kernel
 def mean_distance(points):
     """Mean distance of two of the points (P, n)."""
     count, size = points.shape
@@ -61,11 +72,53 @@ def pointed_at(wheel, start, count):
 
 
 @kernel
-def crossed(first, second, draws, children):
-    """Each coordinate from one parent or the other, by a draw below one half."""
-    for i in range(len(first)):
-        for c in range(first.shape[1]):
-            children[i, c] = first[i, c] if draws[i, c] < 0.5 else second[i, c]
+def next_generation(individuals, wheel, start, order, draws, noise, left, low, high, gaussian):
+    """The children :func:`bred` by the parents that pointers from ``start`` on choose, taken in the
+    ``order`` (K,), with a step of ``left`` of the box."""
+    slots = pointed_at(wheel, start, len(order))
+    chosen, step = np.empty(len(order), np.int64), np.empty(len(low))
+    for k in range(len(order)):
+        chosen[k] = slots[order[k]]
+    for c in range(len(low)):
+        step[c] = left * (high[c] - low[c])
+    return bred(individuals, chosen, draws, noise, step, low, high, gaussian)
+
+
+@kernel
+def bred(individuals, chosen, draws, noise, step, low, high, gaussian):
+    """The next generation (P, n): the first pass on, pairs of parents are crossed, the others move.
+
+    Parameters
+    ----------
+    chosen : (2 C + M,)
+        Rows of the parents.
+    draws : (C, n)
+        Below one half a coordinate is that of the first C parents, else that of the next C.
+    noise, step : (M, n), (n,)
+        The last M parents are shifted by ``noise * step`` where ``gaussian``, else they go ``step``
+        in the direction of the noise, as far as the box ``low``, ``high`` allows.
+    """
+    count, size = individuals.shape
+    pairs, mutants = len(draws), len(noise)
+    elite = count - pairs - mutants
+    children, parents = np.empty_like(individuals), np.empty((mutants, size))
+    for i in range(elite):
+        for c in range(size):
+            children[i, c] = individuals[i, c]
+    for i in range(pairs):
+        first, second = chosen[i], chosen[pairs + i]
+        for c in range(size):
+            parent = first if draws[i, c] < 0.5 else second
+            children[elite + i, c] = individuals[parent, c]
+    for i in range(mutants):
+        for c in range(size):
+            parents[i, c] = individuals[chosen[2 * pairs + i], c]
+    moved = children[elite + pairs :]
+    if gaussian:
+        shifted(parents, noise, step, low, high, moved)
+    else:
+        stepped(parents, noise, step, low, high, moved)
+    return children
 
 
 @kernel

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil
+from math import ceil, isfinite
 from numbers import Integral
 from typing import Annotated, NamedTuple
 
@@ -18,14 +18,7 @@ import numpy as np
 from ..annotation import real_array
 from ..arguments import LATER, checked
 from ..errors import InputError, UnknownNameError
-from .generation import (
-    crossed,
-    mean_distance,
-    pointed_at,
-    shifted,
-    sorted_by_value,
-    stepped,
-)
+from .generation import next_generation, pointed_at, ranked
 
 Fitness = Callable[[np.ndarray], np.ndarray]
 MUTATIONS = ("gaussian", "adaptive_feasible")
@@ -126,12 +119,20 @@ class Search:
     rng: np.random.Generator
     individuals: np.ndarray = field(init=False)
     values: np.ndarray = field(init=False)
-    parents: np.ndarray = field(init=False)
+    before: np.ndarray = field(init=False)
+    pointer: float = field(init=False)
+    order: np.ndarray = field(init=False)
     history: list[Generation] = field(init=False, default_factory=list)
     evaluations: int = field(init=False, default=0)
     known: int = field(init=False, default=0)
     step: float = field(init=False, default=1.0)
     reason: str | None = field(init=False, default=None)
+
+    @property
+    def parents(self) -> np.ndarray:
+        """Of the generation to come, or of the one that was bred last (K, n)."""
+        chosen = pointed_at(self.settings.wheel, self.pointer, len(self.order))
+        return self.before[chosen[self.order]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,13 +178,13 @@ def evaluate(search: Search) -> None:
 
 def rank(search: Search) -> None:
     """Sort by fitness and record best, mean and mean distance"""
-    search.individuals, search.values = sorted_by_value(search.individuals, search.values)
-    values, count = search.values, len(search.values)
-    feasible = count - int(values[::-1].searchsorted(0.0, "right"))
+    found = ranked(search.individuals, search.values)
+    search.individuals, search.values, feasible, distance = found
+    count = len(search.values)
     record = Generation(
-        best=float(values[0]),
-        mean=float(np.add.reduce(values) / count),
-        distance=mean_distance(search.individuals),
+        best=float(search.values[0]),
+        mean=float(np.add.reduce(search.values) / count),
+        distance=distance,
         feasible=feasible / count,
     )
     if search.history:
@@ -197,43 +198,44 @@ def finished(search: Search) -> bool:
     settings, history = search.settings, search.history
     if len(history) > settings.generations:
         search.reason = "generations"
-    elif rests(_watched(history, settings), settings):
+    elif rests(history, settings):
         search.reason = "stall"
     return search.reason is not None
 
 
-def _watched(history: list[Generation], settings: GeneticSettings) -> np.ndarray:
-    """The fitness that decides about a stall, of the generations that it is decided by."""
-    last = history[-1 - settings.stall_generations :]
-    return np.array([g.mean if settings.stall_of == "mean" else g.best for g in last])
-
-
-def rests(values: np.ndarray, settings: GeneticSettings) -> bool:
-    """Whether the fitness (G,) of the generations has changed too little to go on."""
-    window = settings.stall_generations
-    if len(values) <= window or values[-1] <= 0:
+def rests(history: list[Generation], settings: GeneticSettings) -> bool:
+    """Whether the fitness that decides has changed too little over the last generations."""
+    window, column = settings.stall_generations, Generation._fields.index(settings.stall_of)
+    if len(history) <= window or history[-1][column] <= 0.0:
         return False
-    last = values[-1 - window :]
-    changes = np.abs(last[1:] - last[:-1])
-    return bool(np.add.reduce(changes) / window <= settings.stall * values[-1])
+    enough, changed = settings.stall * history[-1][column], 0.0
+    for k in range(-window, 0):
+        changed += abs(history[k][column] - history[k - 1][column])
+        if changed / window > enough:  # and it only grows
+            return False
+    return True
 
 
 def select(search: Search) -> None:
     """Draw parents in proportion to 1/sqrt(rank) with equally spaced pointers"""
     _, pairs, mutants = search.settings.counts
-    chosen = pointed_at(search.settings.wheel, search.rng.random(), 2 * pairs + mutants)
-    search.parents = search.individuals[search.rng.permutation(chosen)]
+    search.before, search.pointer = search.individuals, search.rng.random()
+    search.order = np.arange(2 * pairs + mutants)
+    search.rng.shuffle(search.order)
 
 
 def reproduce(search: Search) -> None:
     """Keep the elite, cross pairs of parents coordinate by coordinate, mutate the rest"""
-    elite, pairs, _ = search.settings.counts
-    parents, children = search.parents, np.empty_like(search.individuals)
-    children[:elite] = search.individuals[:elite]
-    draws = search.rng.random((pairs, children.shape[1]))
-    crossed(parents[:pairs], parents[pairs : 2 * pairs], draws, children[elite : elite + pairs])
-    _mutate(search, parents[2 * pairs :], children[elite + pairs :])
-    search.individuals = children
+    settings, size = search.settings, len(search.low)
+    elite, pairs, mutants = settings.counts
+    draws = search.rng.random((pairs, size))
+    noise = search.rng.standard_normal((mutants, size))
+    gaussian = settings.mutation == "gaussian"
+    left = 1.0 - len(search.history) / (settings.generations + 1) if gaussian else search.step
+    search.individuals = next_generation(
+        *(search.before, settings.wheel, search.pointer, search.order, draws, noise),
+        *(left, search.low, search.high, gaussian),
+    )
     search.values[elite:] = 0.0
     search.known = elite
 
@@ -300,7 +302,7 @@ def rated(fitness: Fitness, individuals: np.ndarray) -> np.ndarray:
     array = np.asarray(values)
     if array.shape != (len(individuals),) or array.dtype.kind not in "fiu":
         raise InputError("search", "fitness", values, expected)
-    if not np.isfinite(array).all():
+    if not (isfinite(np.add.reduce(array)) or np.isfinite(array).all()):
         raise InputError("search", "fitness", float(array[~np.isfinite(array)][0]), expected)
     return array
 
@@ -322,13 +324,3 @@ def checked_box(box: np.ndarray) -> np.ndarray:
     if not good or (array[:, 0] >= array[:, 1]).any():
         raise InputError("search", "box", array.tolist(), expected)
     return array
-
-
-def _mutate(search: Search, parents: np.ndarray, children: np.ndarray) -> None:
-    size = search.high - search.low
-    noise = search.rng.normal(size=parents.shape)
-    if search.settings.mutation == "gaussian":
-        left = 1.0 - len(search.history) / (search.settings.generations + 1)
-        shifted(parents, noise, left * size, search.low, search.high, children)
-    else:
-        stepped(parents, noise, search.step * size, search.low, search.high, children)

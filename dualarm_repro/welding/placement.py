@@ -132,20 +132,29 @@ def solve_jobs(cell: Cell, separation: Separation, centres: np.ndarray) -> Jobs:
     )
     alive = np.arange(count)
     for k in range(len(cell.arms)):
-        jobs.q[alive, k], jobs.w[alive, k], jobs.branch[alive, k], status = follow(
-            cell.geometries[k],
-            cell.bases[k],
-            np.ascontiguousarray(cell.flanges[k]),
-            np.ascontiguousarray(centres[alive]),
-            *cell.limits(k),
-            cell.threshold,
-        )
+        found = _followed(cell, k, centres[alive])
+        jobs.q[alive, k], jobs.w[alive, k], jobs.branch[alive, k], status = found
         lost = status != Status.FEASIBLE
         jobs.status[alive[lost]], jobs.robot[alive[lost]] = status[lost], k
         alive = alive[~lost]
     jobs.separation[alive] = separation.smallest(jobs.q[alive], centres[alive])
     jobs.status[alive[jobs.separation[alive] <= 0]] = Status.COLLISION
     return jobs
+
+
+def statuses(cell: Cell, centres: np.ndarray) -> np.ndarray:
+    """Status of every robot alone at positions (P, 3), whatever becomes of the others -> (P, R)."""
+    return np.column_stack([_followed(cell, k, centres)[3] for k in range(len(cell.arms))])
+
+
+def _followed(cell: Cell, robot: int, centres: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Joint paths of one robot, see :func:`.branches.follow`."""
+    flanges, at = np.ascontiguousarray(cell.flanges[robot]), np.ascontiguousarray(centres)
+    geometry, base = cell.geometries[robot], cell.bases[robot]
+    found: tuple[np.ndarray, ...] = follow(
+        *(geometry, base, flanges, at, *cell.limits(robot), cell.threshold)
+    )
+    return found
 
 
 def _positions(centres: ArrayLike) -> np.ndarray:

@@ -10,6 +10,8 @@ import numpy as np
 from ..arguments import checked
 from ..errors import InputError
 
+MOST_POINTS = 100_000  # of a seam
+
 
 @dataclass(frozen=True, eq=False)
 class Seam:
@@ -67,8 +69,9 @@ def saddle_seam(radius_main: float, radius_branch: float, count: int) -> Seam:
     if radius_branch >= radius_main:
         expected = f"less than the radius of the main pipe, {radius_main:g} m"
         raise InputError("seam", "radius_branch", radius_branch, expected)
-    if not isinstance(count, Integral) or count < 3:
-        raise InputError("seam", "count", count, "at least 3 seam points")
+    if not isinstance(count, Integral) or not 3 <= count <= MOST_POINTS:
+        expected = f"at least 3 seam points, at most {MOST_POINTS}"
+        raise InputError("seam", "count", count, expected)
     theta = 2.0 * np.pi * np.arange(count) / count
     cosine, sine, zero = np.cos(theta), np.sin(theta), np.zeros(count)
     y = radius_branch * sine

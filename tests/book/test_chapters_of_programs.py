@@ -61,6 +61,9 @@ METHODS = {
         arc_speed timed certified_separation interpolation_offset torch_angles retract effort
     """,
 }
+#: Pages to run; the longest, which takes half a minute, only where there is time. The book runs it.
+LONGEST = "patent/contest"
+RUN = [pytest.param(page, marks=[pytest.mark.long] if page == LONGEST else []) for page in METHODS]
 
 
 def test_every_chapter_has_its_methods():
@@ -79,7 +82,7 @@ def test_cells_name_no_path(page):
             assert not re.search(r"/(home|root|tmp|work)/", node.value)
 
 
-@pytest.mark.parametrize("page", METHODS)
+@pytest.mark.parametrize("page", RUN)
 def test_every_cell_shows_what_it_promises(page):
     ran = run_cells(page)
     assert (ran.silent, ran.warned, ran.left) == ([], [], [])
@@ -92,7 +95,7 @@ def nested(key, value):
     return {"obtained": value}
 
 
-@pytest.mark.parametrize("page", METHODS)
+@pytest.mark.parametrize("page", RUN)
 def test_a_page_obtains_what_its_cards_judge(page, registry):
     found = run_cells(page).compared
     assert found, "a page sets a number of its own beside the ledger"
@@ -170,8 +173,9 @@ def test_what_a_reader_of_patent_is_told_to_change_has_the_consequence():
     assert unfed.largest_error > 10 * fed.largest_error
 
 
+@pytest.mark.long(reason="it reads what the longest page computes")
 def test_without_feedback_a_wrong_state_is_kept():
-    names = run_cells("patent/contest").names
+    names = run_cells(LONGEST).names
     y0 = names["starts"]["random"]
     for feedback, kept in ((0.0, True), (10.0, False)):
         changed = ControllerSettings(feedback=feedback)

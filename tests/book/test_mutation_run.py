@@ -21,9 +21,18 @@ def test_that_fails_anyway(): assert False
 """
 
 
-@pytest.fixture
-def tree(tmp_path, monkeypatch):
-    root = tmp_path / "root"
+def test_the_list_of_equivalent_mutants_names_mutants_that_exist():
+    from dualarm_repro.ledger.trust.mutants import mutants
+
+    for entry in mutation_run.equivalents():
+        drawn = mutants(mutation_run.ROOT, entry["file"])
+        assert [m for m in drawn if mutation_run.excused(m, [entry])], entry
+        assert len(entry["reason"]) > 10
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    root = tmp_path_factory.mktemp("mutated") / "root"
     for name in ("dualarm_repro/arms", "tests/arms", "data", "tools"):
         (root / name).mkdir(parents=True)
     (root / "dualarm_repro" / "__init__.py").write_text("")
@@ -31,9 +40,6 @@ def tree(tmp_path, monkeypatch):
     (root / "tests" / "arms" / "test_m.py").write_text(TESTS)
     (root / "pyproject.toml").write_text("")
     (root / "CITATION.cff").write_text("")
-    monkeypatch.setattr(mutation_run, "ROOT", root)
-    monkeypatch.setattr(mutation_run, "ROOMS", ("dualarm_repro/arms",))
-    monkeypatch.setattr(mutation_run, "TEST_LIMIT", 3)
     known = [
         {
             "file": "dualarm_repro/arms/m.py",
@@ -43,12 +49,20 @@ def tree(tmp_path, monkeypatch):
             "reason": "nothing adds to nothing",
         }
     ]
-    monkeypatch.setattr(mutation_run, "equivalents", lambda: known)
-    return root
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(mutation_run, "ROOT", root)
+        patch.setattr(mutation_run, "ROOMS", ("dualarm_repro/arms",))
+        patch.setattr(mutation_run, "TEST_LIMIT", 3)
+        patch.setattr(mutation_run, "equivalents", lambda: known)
+        yield root
 
 
-def test_what_kills_each(tree, tmp_path):
-    rows = list(mutation_run.run(tmp_path / "work", per_room=99, limit=99))
+@pytest.fixture(scope="module")
+def rows(tree):
+    return list(mutation_run.run(tree.parent / "work", per_room=99, limit=99))
+
+
+def test_what_kills_each(tree, rows):
     fate = {(r["line"], r["old"], r["new"]): r["killed_by"] or r["equivalent"] for r in rows}
     test = "test tests/arms/test_m.py::test_"
     assert fate == {
@@ -61,26 +75,16 @@ def test_what_kills_each(tree, tmp_path):
         (9, "+", "-"): None,
         (9, "5", "6"): "nothing adds to nothing",
     }
-    assert (tmp_path / "work" / "tree" / "dualarm_repro" / "arms" / "m.py").read_text() == SOURCE
+    assert (tree.parent / "work" / "tree" / "dualarm_repro" / "arms" / "m.py").read_text() == SOURCE
 
 
-def test_the_list_of_equivalent_mutants_names_mutants_that_exist():
-    from dualarm_repro.ledger.trust.mutants import mutants
-
-    for entry in mutation_run.equivalents():
-        drawn = mutants(mutation_run.ROOT, entry["file"])
-        assert [m for m in drawn if mutation_run.excused(m, [entry])], entry
-        assert len(entry["reason"]) > 10
-
-
-def test_what_is_known_to_be_killed_is_not_tried_again(tree, tmp_path, monkeypatch):
-    first = list(mutation_run.run(tmp_path / "first", per_room=99, limit=99))
-    known = mutation_run.killers(first)
-    assert len(known) == sum(bool(row["killed_by"]) for row in first)
+def test_what_is_known_to_be_killed_is_not_tried_again(rows, tmp_path, monkeypatch):
+    known = mutation_run.killers(rows)
+    assert len(known) == sum(bool(row["killed_by"]) for row in rows)
     tried = []
     monkeypatch.setattr(mutation_run.Copy, "killer", lambda self, mutant: tried.append(mutant))
     again = list(mutation_run.run(tmp_path / "again", per_room=99, noticed=known))
-    assert [row["killed_by"] for row in again] == [row["killed_by"] for row in first]
+    assert [row["killed_by"] for row in again] == [row["killed_by"] for row in rows]
     assert tried
     assert all(mutation_run._place(one._asdict()) not in known for one in tried)
 

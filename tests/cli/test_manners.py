@@ -333,3 +333,25 @@ def _kept(name):
     from dualarm_repro.papers import load
 
     return {"record": _declared(load(), name) | {"verdict": "inconsistent-in-print"}, "inputs": []}
+
+
+def test_a_listing_of_kept_records_imports_no_heavy_library():
+    code = (
+        "import sys\n"
+        "from dualarm_repro.cli import main\n"
+        "from dualarm_repro.ledger import kept\n"
+        "from dualarm_repro.ledger.record import _declared\n"
+        "from dualarm_repro.papers import load\n"
+        "load().checker = lambda name: None\n"
+        "kept.read = lambda registry, kind, name: {'inputs': [], 'record':\n"
+        "    _declared(registry, name) | {'verdict': 'reproduced'}}\n"
+        "sys.argv = ['dualarm', 'list']\n"
+        "try:\n"
+        "    main()\n"
+        "finally:\n"
+        "    heavy = ('pandas', 'numba', 'scipy', 'pinocchio', 'coal', 'sympy', 'matplotlib')\n"
+        "    print([name for name in heavy if name in sys.modules])\n"
+    )
+    made = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "xue.tab01" in made.stdout
+    assert made.stdout.splitlines()[-1] == "[]"

@@ -4,7 +4,6 @@ import enum
 import importlib
 import inspect
 from dataclasses import dataclass
-from functools import partial
 
 from pydantic import BaseModel
 from valid import BY_NAME, INSTANCES, VALID, made
@@ -31,10 +30,6 @@ RECORDS = {
 }
 
 
-#: What it keeps with its first argument has to be given that by position.
-BY_POSITION = {"scene.links_of"}
-
-
 @dataclass(frozen=True)
 class Entry:
     """A function, a class that is made, or a method of an object that is made for it."""
@@ -46,8 +41,6 @@ class Entry:
     @property
     def function(self):
         """What is called."""
-        if self.name in BY_POSITION:
-            return partial(_by_position, self.plain)
         return getattr(made(self.owner), self.name.rpartition(".")[2]) if self.owner else self.plain
 
     def arguments(self):
@@ -67,10 +60,6 @@ class Entry:
             elif parameter.default is parameter.empty:
                 raise LookupError(f"tests/fuzz/valid.py has no value of {name} of {self.name}")
         return found
-
-
-def _by_position(function, **given):
-    return function(*given.values())
 
 
 def entries():

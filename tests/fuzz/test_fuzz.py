@@ -4,9 +4,10 @@ import math
 import resource
 
 import calls
+import commands
 import numpy as np
 import pytest
-from outcome import judged
+from outcome import COMPILED, PATIENCE, judged
 from targets import cases, targets
 
 from dualarm_repro.errors import InputError
@@ -63,3 +64,23 @@ def test_the_judge_knows_defects():
     assert judged(stumbles)[0] == judged(breaks_the_line)[0] == "defect"
     assert judged(lambda: (1.0, np.array([math.nan])))[1] == "NaN for finite input"
     assert judged(lambda: 1.0, nan_given=True)[1] == "answers for NaN"
+
+
+@pytest.mark.parametrize(
+    ("taken", "expected", "given"),
+    [
+        ([1.0], ("answered", ""), [PATIENCE]),
+        ([60.0, 60.0, 1.0], ("answered", ""), [PATIENCE, COMPILED, PATIENCE]),
+        ([60.0, 60.0, 60.0], commands.NO_ANSWER, [PATIENCE, COMPILED, PATIENCE]),
+        ([600.0, 600.0], commands.NO_ANSWER, [PATIENCE, COMPILED]),
+    ],
+)
+def test_a_command_is_judged_without_the_time_in_which_it_compiles(taken, expected, given):
+    allowed, taken = [], iter(taken)
+
+    def attempt(seconds):
+        allowed.append(seconds)
+        return commands.NO_ANSWER if next(taken) > seconds else ("answered", "")
+
+    assert commands.answer(attempt) == expected
+    assert allowed == given

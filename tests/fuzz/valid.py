@@ -252,7 +252,6 @@ VALID = {
     "arms.Arm.nearest": lambda: {"q": Q6, "reference": GOAL6},
     "arms.Arm.from_dh": lambda: {"name": "a", "robot": made("robot"), "shapes": "none"},
     "arms.Arm.reshaped": lambda: {"geometry": lambda: made("arm").geometry, "name": "b"},
-    "scene.links_of": lambda: {"arm": made("arm")},
     "arms.Exclusion": lambda: {
         **{"first": "a", "second": "b", "evidence": arms.Evidence.ADJACENT},
         **{"touching": 1, "sampled": 2, "flagged": 0},

@@ -122,6 +122,7 @@ def test_what_is_typed_is_read_back(registry):
                 assert declared.range or not declared.choices or typed(value) in offered, name
 
 
+@pytest.mark.usefixtures("kept_records")
 def test_the_command_that_is_offered_changes_what_it_says(registry):
     """The change that flips the outcome where there is one, else another plausible value."""
     flips = others = 0

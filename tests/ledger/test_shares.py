@@ -20,6 +20,12 @@ def test_interval_is_that_of_wilson(total, part):
     assert found.high == pytest.approx(expected.high, abs=1e-9)
 
 
+@pytest.mark.parametrize("total", range(1, 200))
+def test_all_and_none_are_within_their_intervals(total):
+    assert Share.of(total, total).high == 1.0
+    assert Share.of(0, total).low == 0.0
+
+
 def test_nothing_drawn_leaves_everything_possible():
     found = Share.of(0, 0)
     assert np.isnan(found.value)

@@ -2,14 +2,13 @@
 
 import pandas as pd
 import pytest
+from evaluated_items import NOTED, REGISTRY, evaluated
 
 from dualarm_repro.datafiles import opened
 from dualarm_repro.ledger import Exceeds, Generally, Study, evaluate
 from dualarm_repro.ledger.rules import Outcome
-from dualarm_repro.papers import load
-from dualarm_repro.tracking import forget, recording
+from dualarm_repro.tracking import forget
 
-REGISTRY = load()
 STATISTICAL = [
     item_id
     for item_id, checker in REGISTRY.checkers.items()
@@ -19,17 +18,15 @@ SUBSAMPLES = 3
 _LOAD = Study.load
 
 
-def outcomes(item_id):
-    evaluation = evaluate(REGISTRY, item_id)
+def outcomes(evaluation):
     rules = [r for r in evaluation.checker.rules if isinstance(r, Generally | Exceeds)]
     return {rule.label: rule.outcome(evaluation.evidence) for rule in rules}
 
 
 def tables(item_id):
     """Stored tables that an item reads."""
-    with recording() as noted:
-        evaluate(REGISTRY, item_id)
-    return [name for name in noted if name.endswith(".parquet")]
+    evaluated(item_id)
+    return [name for name in NOTED[item_id] if name.endswith(".parquet")]
 
 
 def resampled(monkeypatch, item_id, change):
@@ -44,7 +41,7 @@ def resampled(monkeypatch, item_id, change):
     for name in names:
         forget(name)
     try:
-        return outcomes(item_id)
+        return outcomes(evaluate(REGISTRY, item_id))
     finally:
         monkeypatch.setattr(Study, "load", _LOAD)
         for name in names:
@@ -59,7 +56,7 @@ def keep_sides(before, after):
 @pytest.mark.parametrize("item_id", STATISTICAL)
 @pytest.mark.parametrize("k", range(SUBSAMPLES))
 def test_a_third_of_the_draws(monkeypatch, item_id, k):
-    full = outcomes(item_id)
+    full = outcomes(evaluated(item_id))
     third = resampled(
         monkeypatch, item_id, lambda table: table.sample(frac=1 / 3, random_state=k).sort_index()
     )
@@ -68,7 +65,7 @@ def test_a_third_of_the_draws(monkeypatch, item_id, k):
 
 @pytest.mark.parametrize("item_id", STATISTICAL)
 def test_twice_the_draws(monkeypatch, item_id):
-    full = outcomes(item_id)
+    full = outcomes(evaluated(item_id))
     twice = resampled(monkeypatch, item_id, lambda table: pd.concat([table, table]).sort_index())
     assert keep_sides(full, twice)
 

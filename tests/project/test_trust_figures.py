@@ -4,6 +4,7 @@ import json
 
 import branch_coverage
 import pytest
+import run_long_tests
 import trust
 import trust_figures
 
@@ -17,7 +18,10 @@ def test_a_figure_that_changes_is_noticed(tmp_path):
     (tmp_path / "faults.json").write_text(json.dumps(found))
     (tmp_path / "fuzz.json").write_text(json.dumps({"cases": {"refused": 7, "answered": 5}}))
     (tmp_path / "coverage.json").write_text(json.dumps({"branches": 8, "reached": 7}))
+    again = {"counts": {"two workers": {"items": 9, "cells": 4, "otherwise": 1}}}
+    (tmp_path / "determinism.json").write_text(json.dumps(again))
     table = trust_figures.figures(trust_figures.rows(tmp_path, tmp_path))
+    assert "| computed again: two workers | 9 items, 4 cells of studies | 1 otherwise |" in table
     assert "| faults: killed | 60 | 59 survived |" in table
     assert "| hostile inputs | 12 | 5 answered, 7 refused |" in table
     assert "| branches of the library | 8 | 87.5% reached |" in table
@@ -31,7 +35,7 @@ def test_a_figure_that_changes_is_noticed(tmp_path):
 
 def test_what_is_not_stored_is_not_claimed(tmp_path):
     table = trust_figures.figures(trust_figures.rows(tmp_path, tmp_path))
-    assert table.count(trust_figures.ABSENT) == 3
+    assert table.count(trust_figures.ABSENT) == 4
 
 
 def test_properties_are_counted_from_the_tests(tmp_path):
@@ -62,4 +66,5 @@ def test_every_part_of_make_trust_is_there(root):
     for part in trust.PARTS:
         assert (root / trust.command(part)[1]).is_file()
     assert list(trust.PARTS)[-1] == "trust_figures", "written from what the others stored"
+    assert run_long_tests.command()[-2:] == ["-m", "long"]
     assert "$(BIN)/python tools/trust.py" in (root / "Makefile").read_text(encoding="utf-8")

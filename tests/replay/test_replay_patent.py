@@ -10,21 +10,14 @@ import pytest
 from exported import Export, columns
 from replayed_panda import Pair, optimality_residual
 
-ITEMS = [
-    "patent.fig02",
-    "patent.claim_accuracy",
-    "patent.claim_limits",
-    "patent.claim_two_ranges",
-    "patent.eq_integration",
-]
 JOINTS = [f"{arm}_{{}}{k} [{{}}]" for arm in ("left", "right") for k in range(1, 8)]
 #: Declared settings that the exported items do not list: gains and margins of the merged bounds.
 FEEDBACK, LIMIT_GAIN, MARGIN, DAMPER, OUTER, INNER = 10.0, 5.0, 0.05, 5.0, 0.10, 0.03
 
 
 @pytest.fixture(scope="module")
-def export(tmp_path_factory):
-    return Export.of(ITEMS, tmp_path_factory.mktemp("published"))
+def export(files):
+    return Export(files)
 
 
 @pytest.fixture(scope="module")

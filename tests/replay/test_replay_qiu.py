@@ -13,11 +13,6 @@ from replayed_arm import Arm, apart_somewhere, arm_to_arm, arm_to_spheres, densi
 from replayed_search import Field, search
 
 ROBOT = Path(__file__).parents[2] / "data" / "robots" / "irb120.yaml"
-ITEMS = [
-    "qiu.claim_bases", "qiu.claim_obstacles", "qiu.claim_start", "qiu.claim_d", "qiu.claim_zeta",
-    "qiu.claim_rho0", "qiu.claim_alpha0", "qiu.claim_goals15", "qiu.claim_no_collision", "qiu.eq04",
-    "qiu.fig03", "qiu.fig10", "qiu.fig12", "qiu.fig17", "qiu.tab02",
-]  # fmt: skip
 JOINTS = [f"q{j}" for j in range(1, 7)]
 
 
@@ -55,8 +50,8 @@ class Published(Export):
 
 
 @pytest.fixture(scope="module")
-def published(tmp_path_factory):
-    return Published.of(ITEMS, tmp_path_factory.mktemp("published"))
+def published(files):
+    return Published(files)
 
 
 def test_forces_at_random_postures(published):
@@ -106,7 +101,9 @@ def test_clearance_of_every_common_motion(published):
         assert spheres == pytest.approx(smallest[f"slave to spheres, {name}"], abs=1e-6)
 
 
-@pytest.mark.parametrize("method", ["traditional", "improved"])
+@pytest.mark.parametrize(
+    "method", ["improved", pytest.param("traditional", marks=pytest.mark.long)]
+)
 def test_table_2_with_the_printed_gains(published, method):
     field, table = published.field(), published.table("claim_goals15")
     goals = np.deg2rad(columns(table, *(f"q{j}_deg" for j in range(1, 7))))

@@ -15,10 +15,8 @@ POINTS = range(2, 7)  # frames of the five distances of (15)
 
 
 @pytest.fixture(scope="module")
-def xue(tmp_path_factory):
-    inputs = ("xue.claim_gains", "xue.claim_master_start", "xue.claim_master_goal", *SLAVE_ENDS)
-    ids = (*MATRICES, *inputs, *FIGURES, "xue.eq16", "xue.tab02", "xue.claim_only_tcp")
-    return Export.of(ids, tmp_path_factory.mktemp("xue"))
+def xue(files):
+    return Export(files)
 
 
 @pytest.fixture(scope="module")

@@ -188,8 +188,11 @@ def test_normal_is_continuous_through_contact_and_penetration():
 
 
 def test_what_is_no_shape_is_refused():
-    with pytest.raises(InputError, match="signed_distance: shape = 'wall': expected Sphere"):
-        signed_distance(Sphere((0, 0, 0), 1), "wall")
+    ball = Sphere((0, 0, 0), 1)
+    with pytest.raises(InputError, match="signed_distance: b = 'wall': expected Sphere"):
+        signed_distance(ball, "wall")
+    with pytest.raises(InputError, match="signed_distance: a = 'wall': expected Sphere"):
+        signed_distance("wall", ball)
 
 
 def test_two_boxes_are_refused():

@@ -18,7 +18,7 @@ from dualarm_repro.scene import (
     Sphere,
     distances,
 )
-from dualarm_repro.scene.edge_kernels import LANES, edge_buffers, pose_block
+from dualarm_repro.scene.edge_kernels import LANES, edge_buffers, place_block, set_joints
 from dualarm_repro.scene.edge_model import edge_model
 from dualarm_repro.scene.edges import free_edges
 from dualarm_repro.scene.lane_distances import unsure_box, unsure_capsules, unsure_plane
@@ -185,6 +185,12 @@ def test_wrong_input_is_named(scene):
         free_edges(scene, starts, ends, -1.0)
     with pytest.raises(InputError, match="jobs"):
         free_edges(scene, starts, ends, jobs=0)
+    for name, value in (("margin", "a"), ("jobs", 1.5)):
+        with pytest.raises(InputError, match=f"{name}.*expected"):
+            free_edges(scene, starts, ends, **{name: value})
+    for far in (1.1e6, 1e17, 1e150):  # a sine of which would be noise, or none
+        with pytest.raises(ConfigurationError, match=r"angles of at most 1e\+06 rad"):
+            free_edges(scene, starts + far * np.eye(scene.nq)[0], ends)
     track = PosePath([pin.SE3.Identity()] * 2, [0.0, 9.0])
     moving = Scene(scene.arms, moving={"ball": MovingShape(Sphere([0.0, 0.0, 2.0], 0.1), track)})
     with pytest.raises(InputError, match="ball"):
@@ -197,7 +203,8 @@ def test_poses_of_a_block_are_those_of_the_scene(scene):
     buffers = edge_buffers(model)
     w, turns, _, ends, *_ = buffers
     w[14 * LANES : 15 * LANES] = share = np.linspace(0.0, 1.0, LANES)
-    pose_block(model, start, end, w, turns, ends)
+    set_joints(start, end, w, turns)
+    place_block(model, w, turns, ends)
     q = start + share[:, np.newaxis] * (end - start)
     cores = place(scene, q, np.zeros(LANES)).cores
     middles = cores.mean(axis=2)

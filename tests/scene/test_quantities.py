@@ -26,7 +26,7 @@ def test_not_positive(value):
         positive("here", "r", value, "rad")
 
 
-@pytest.mark.parametrize("value", [[[1, 2], [3]], object(), [1, 2, "x"]])
+@pytest.mark.parametrize("value", [[[1, 2], [3]], object(), [1, 2, "x"], ["1", "2", "3"]])
 def test_not_numbers(value):
     with pytest.raises(InputError, match="here: v"):
         vector3("here", "v", value)

@@ -34,3 +34,17 @@ def test_a_lost_fault_is_named(results):
     shown = tried.lost_page().html
     assert "killed: plan: &lt;half&gt;" in shown
     assert "All" not in shown
+
+
+def test_what_came_out_otherwise_is_named(results):
+    assert "came out the same" not in tried.otherwise_page().html
+    count = {"items": 3, "cells": 2, "otherwise": 0}
+    stored = {"counts": {"two workers": count, "warm cache": count}, "otherwise": {}}
+    (results / "determinism.json").write_text(json.dumps(stored))
+    assert "Everything came out the same in 2 circumstances" in tried.otherwise_page().html
+    stored["otherwise"] = {"two workers": ["toy cell 1: obtained.x: reference 1, found <2>"]}
+    (results / "determinism.json").write_text(json.dumps(stored))
+    shown = tried.otherwise_page().html
+    assert "two workers" in shown
+    assert "found &lt;2&gt;" in shown
+    assert "Everything" not in shown

@@ -10,7 +10,7 @@ from dualarm_repro.errors import InputError
 from dualarm_repro.welding import GeneticSettings
 from dualarm_repro.welding import genetic as ga
 from dualarm_repro.welding.generation import (
-    crossed,
+    bred,
     mean_distance,
     pointed_at,
     shifted,
@@ -52,11 +52,17 @@ def test_a_wheel_that_ends_below_one_by_rounding_is_not_left():
 
 
 def test_children_take_each_coordinate_from_one_parent():
-    first, second = np.zeros((2, 3)), np.ones((2, 3))
-    draws = np.array([[0.0, 0.49, 0.5], [0.51, 0.99, 0.1]])
-    children = np.empty((2, 3))
-    crossed(first, second, draws, children)
-    assert children.tolist() == [[0, 0, 1], [1, 1, 0]]
+    people = np.repeat([[7.0], [8.0], [0.0], [1.0], [0.5]], 3, axis=1)
+    parents = np.array([2, 2, 3, 3, 4])
+    draws, noise = np.array([[0.0, 0.49, 0.5], [0.51, 0.99, 0.1]]), np.array([[1.0, -2.0, 9.0]])
+    step, box = np.array([0.1, 0.2, 0.3]), (np.zeros(3), np.ones(3))
+    children = bred(people, parents, draws, noise, step, *box, True)
+    assert children[:2].tolist() == people[:2].tolist()
+    assert children[2:4].tolist() == [[0, 0, 1], [1, 1, 0]]
+    np.testing.assert_allclose(children[4], [0.6, 0.1, 1.0])
+    turned = bred(people, parents, draws, noise, step, *box, False)
+    assert turned[:4].tolist() == children[:4].tolist()
+    assert np.abs(turned[4] - 0.5).max() <= 0.5
 
 
 @settings(max_examples=30)
@@ -115,7 +121,10 @@ def test_the_wheel_falls_with_the_root_of_the_rank():
 )
 def test_a_stall_by_hand(values, rests):
     settings = GeneticSettings(stall=1e-3, stall_generations=3)
-    assert ga.rests(np.array(values), settings) is rests
+    history = [ga.Generation(best=7.0, mean=v, distance=0.0, feasible=1.0) for v in values]
+    assert ga.rests(history, settings) is rests
+    best = GeneticSettings(stall=1e-3, stall_generations=3, stall_of="best")
+    assert ga.rests(history, best) is (len(values) > 3), "the best never changed"
 
 
 def search_of(**settings):

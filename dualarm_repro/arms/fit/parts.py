@@ -8,7 +8,7 @@ from functools import cached_property
 import coal
 import numpy as np
 import pinocchio as pin
-from scipy.spatial import ConvexHull, QhullError
+import scipy
 
 from ..capsules import LinkCapsule
 from .decomposition import Piece, decompose
@@ -101,8 +101,8 @@ def _pieces(shape: pin.GeometryObject, pieces: list[Piece]) -> list[Part]:
 def _corners(triangles: np.ndarray) -> np.ndarray:
     points = triangles.reshape(-1, 3)
     try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):  # flat
+        hull = scipy.spatial.ConvexHull(points)
+    except (scipy.spatial.QhullError, ValueError):  # flat
         return _NO_CORNERS
     thick = hull.volume > _THIN * hull.area
     return points[hull.vertices] if thick else _NO_CORNERS

@@ -6,7 +6,7 @@ import math
 
 import coal
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
+import scipy
 
 from ..capsules import corners
 
@@ -55,9 +55,9 @@ def convex(corners: np.ndarray) -> coal.Convex:
     The faces are Qhull's by way of scipy: coal's own call of it ends the process on thin bodies.
     """
     try:
-        hull = ConvexHull(corners)
-    except QhullError:  # thin, and turned
-        hull = ConvexHull(corners, qhull_options="QJ")
+        hull = scipy.spatial.ConvexHull(corners)
+    except scipy.spatial.QhullError:  # thin, and turned
+        hull = scipy.spatial.ConvexHull(corners, qhull_options="QJ")
     number = np.zeros(len(corners), dtype=int)
     number[hull.vertices] = np.arange(len(hull.vertices))
     points, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
@@ -68,5 +68,5 @@ def convex(corners: np.ndarray) -> coal.Convex:
 
 def _hull(points: np.ndarray) -> np.ndarray:
     """Triangles of the convex hull of points that span a body."""
-    found: np.ndarray = points[ConvexHull(points).simplices]
+    found: np.ndarray = points[scipy.spatial.ConvexHull(points).simplices]
     return found

@@ -15,11 +15,13 @@ from ...errors import DataFileError, UnknownNameError
 from ..angle import EXPECTED, Angle
 from ..joint_type import JointType
 from .document import children
-from .fields import numbers
+from .fields import has, numbers
 
 #: What a URDF may say besides; such joints can only stand still.
 _OTHERS = ("fixed", "planar", "floating")
 _MOST_GEARS = 50
+#: Limits of a turning joint [rad] that say that there are none; files have 1e16.
+ENDLESS = 1e5
 _LENGTH = "a length: a finite number in metres"
 
 
@@ -43,6 +45,7 @@ def read_joints(path: Path, root: Element) -> Joints:
     """Check the joints of a robot and make all of them a vector of numbers for the parser.
 
     A continuous joint becomes a revolute one without limits to speak of, and gears are taken out.
+    One whose limits are beyond :data:`ENDLESS` on both sides counts as continuous.
 
     Raises
     ------
@@ -60,12 +63,21 @@ def read_joints(path: Path, root: Element) -> Joints:
             raise DataFileError(path, f"type of joint {name}", kind, known)
         elif kind != "fixed":
             found.standing[name] = kind
-        if kind == JointType.CONTINUOUS:
+        if kind == JointType.CONTINUOUS or (kind == JointType.REVOLUTE and _unlimited(joint)):
+            found.types[name] = JointType.CONTINUOUS
             _endless(joint)
         if (mimic := joint.find("mimic")) is not None:
             found.gears[name] = _gear(path, name, mimic)
             joint.remove(mimic)
     return found
+
+
+def _unlimited(joint: Element) -> bool:
+    limit = joint.find("limit")
+    return limit is not None and (
+        has(limit, "lower", 1, lambda end: end < -ENDLESS)
+        and has(limit, "upper", 1, lambda end: end > ENDLESS)
+    )
 
 
 def _endless(joint: Element) -> None:

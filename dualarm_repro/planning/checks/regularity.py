@@ -6,8 +6,8 @@ from enum import StrEnum
 
 import numpy as np
 import pinocchio as pin
+import scipy
 from numpy.typing import ArrayLike
-from scipy.spatial.transform import Rotation
 
 from ...arms import Arm
 
@@ -54,7 +54,7 @@ def follow_line(arm: Arm, start: ArrayLike, goal: ArrayLike) -> Line:
     shares = np.linspace(0.0, 1.0, _SAMPLES + 1)[1:]
     turn = pin.log3(ends[0].rotation.T @ ends[1].rotation)
     poses = np.tile(np.eye(4), (_SAMPLES, 1, 1))
-    turns = Rotation.from_rotvec(shares[:, np.newaxis] * turn).as_matrix()
+    turns = scipy.spatial.transform.Rotation.from_rotvec(shares[:, np.newaxis] * turn).as_matrix()
     poses[:, :3, :3] = ends[0].rotation @ turns
     way = ends[1].translation - ends[0].translation
     poses[:, :3, 3] = ends[0].translation + shares[:, np.newaxis] * way

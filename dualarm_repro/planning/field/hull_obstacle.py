@@ -5,16 +5,22 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import spatial
+import scipy
 
 from ...arms import Arm
+from ...errors import InputError
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ...scene.hull import circle_points
-from ...scene.vectors import along, dot, minus, scaled, vector
+from ...scene.vectors import along, dot, minus, out_of_frame, scaled, vector
 from .control_points import frames_of
+from .gift_wrapping import MOST, wrap_hulls
 
 FAR = np.inf
+_LARGEST = 1e9  # [m] of a coordinate
+#: Of a face whose plane is at most so far above a point [m], round-off may decide on which side of
+#: it the point lies.
+_LEVEL = 1e-9
 
 
 class HullTrack(NamedTuple):
@@ -58,8 +64,18 @@ def circles_on(placed: PlacedArm, circles: JointCircles, q: np.ndarray) -> np.nd
         poles = np.multiply.outer(circles.radii, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
         local = np.vstack([local, (centres[:, np.newaxis] + poles).reshape(-1, 3)])
         carrier = np.append(carrier, np.repeat(np.minimum(number, arm.nq), 2))
-    frames = frames_of(placed, q)[:, carrier]
-    return np.einsum("npij,pj->npi", frames[..., :3], local) + frames[..., 3]
+    points = np.empty((len(q), len(local), 3))
+    _carry(frames_of(placed, q), carrier, local, points)
+    return points
+
+
+@kernel
+def _carry(frames, carrier, local, points):
+    """Points (P, 3) of the frames (N, J, 3, 4) that carry them into ``points`` (N, P, 3)."""
+    for n in range(len(frames)):
+        for k in range(len(carrier)):
+            at = out_of_frame(frames[n, carrier[k]], vector(local[k]))
+            points[n, k, 0], points[n, k, 1], points[n, k, 2] = at
 
 
 def _planar(arm: Arm) -> bool:
@@ -72,16 +88,42 @@ def _planar(arm: Arm) -> bool:
 
 
 def hull_track(points: np.ndarray) -> HullTrack:
-    """Convex hulls of point sets (T, M, 3)."""
-    hulls = [spatial.ConvexHull(row) for row in points]
-    most = max((len(hull.simplices) for hull in hulls), default=0)
-    planes, triangles = np.empty((len(hulls), most, 4)), np.empty((len(hulls), most, 3, 3))
-    for k, (hull, row) in enumerate(zip(hulls, points, strict=True)):
-        faces = len(hull.simplices)
-        planes[k, :faces], planes[k, faces:] = hull.equations, hull.equations[-1]
-        corners = row[hull.simplices]
-        triangles[k, :faces], triangles[k, faces:] = corners, corners[-1]
-    return HullTrack(planes, triangles)
+    """Convex hulls of point sets (T, M, 3).
+
+    Raises
+    ------
+    InputError
+        Points that do not span a volume, or are no finite numbers.
+    """
+    points = np.ascontiguousarray(points, dtype=float)
+    if points.ndim != 3 or points.shape[2] != 3 or points.shape[1] < 4:
+        expected = "sets of at least four points (T, M, 3)"
+        raise InputError("hull_track", "points", points.shape, expected)
+    if not (np.abs(points) <= _LARGEST).all():  # which NaN is not
+        expected = f"finite numbers of at most {_LARGEST:g} m"
+        raise InputError("hull_track", "points", points, expected)
+    rows, count = points.shape[:2]
+    planes, triangles = np.empty((rows, 2 * count, 4)), np.empty((rows, 2 * count, 3, 3))
+    faces = np.zeros(rows, dtype=np.int64)
+    if count <= MOST:
+        wrap_hulls(points, planes, triangles, faces)
+    for k in np.flatnonzero(faces == 0):
+        hull = _by_qhull(points[k])
+        faces[k] = found = len(hull.simplices)
+        planes[k, :found], triangles[k, :found] = hull.equations, points[k][hull.simplices]
+    # A row with fewer faces repeats its last one.
+    shown = np.minimum(np.arange(faces.max(initial=0)), faces[:, np.newaxis] - 1)
+    row = np.arange(rows)[:, np.newaxis]
+    return HullTrack(planes[row, shown], triangles[row, shown])
+
+
+def _by_qhull(points: np.ndarray) -> scipy.spatial.ConvexHull:
+    """The hull of points that are many, or lie so that round-off decides about a face."""
+    try:
+        return scipy.spatial.ConvexHull(points)
+    except (ValueError, scipy.spatial.QhullError):
+        expected = "at least four finite points that do not lie in one plane"
+        raise InputError("hull_track", "points", points, expected) from None
 
 
 def hull_distance(
@@ -90,16 +132,21 @@ def hull_distance(
     """Signed distance of a point (3,) to a hull and its gradient; readable twin of
     :func:`point_hull`.
 
-    Inside it is the height over the nearest plane, outside the distance to the nearest face.
+    Inside it is the height over the nearest plane, outside the distance to the nearest face, those
+    included whose plane the point misses by round-off. On the surface the direction is the normal
+    of the plane that it is highest above.
     """
     height = planes[:, :3] @ point + planes[:, 3]
     top = int(height.argmax())
     if height[top] <= 0.0:
         return float(height[top]), planes[top, :3].copy()
-    feet = np.array([_nearest_on_triangle(point, corners) for corners in triangles[height > 0.0]])
+    faced = triangles[height > -_LEVEL]
+    feet = np.array([_nearest_on_triangle(point, corners) for corners in faced])
     gaps = point - feet
     distance = np.linalg.norm(gaps, axis=1)
     best = int(distance.argmin())
+    if distance[best] <= _LEVEL:
+        return float(distance[best]), planes[top, :3].copy()
     return float(distance[best]), gaps[best] / distance[best]
 
 
@@ -116,11 +163,13 @@ def point_hull(p, planes, triangles):
     best, gap = np.inf, p
     for f in range(len(planes)):
         above = dot(vector(planes[f]), p) + planes[f, 3]
-        if 0.0 < above < best:
+        if -_LEVEL < above < best:
             away = minus(p, on_triangle(p, triangles[f]))
             length = dot(away, away) ** 0.5
             if length < best:
                 best, gap = length, away
+    if best <= _LEVEL:  # of a gap that small nothing but noise is left of its direction
+        return best, vector(planes[top])
     return best, scaled(1.0 / best, gap)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arms.chain import Chain
-from ...kernel import kernel
+from ...kernel import inlined, kernel
 from ...scene.bodies import PlacedArm
 from ...scene.points import point_box, point_capsule
 from ...scene.posing import set_frames
@@ -189,7 +189,8 @@ def run(field, rules, hulls, start, goal, rows, memory):
     force, frames = np.empty(len(start)), np.empty((len(start) + 1, 3, 4))
     shapes = len(field.core_radius) + len(field.half) + len(field.planes)
     around = np.empty((shapes + min(1, len(hulls[0].planes)), 4))
-    rows.path[0, 0], rows.path[1, 0] = start, goal
+    for j in range(len(start)):
+        rows.path[0, 0, j], rows.path[1, 0, j] = start[j], goal[j]
     closest, since = np.inf, 0
     for turn in range(rules.limit + 1):
         forward = rows.path[0, turn]
@@ -207,21 +208,22 @@ def run(field, rules, hulls, start, goal, rows, memory):
             reason = _STEP_LIMIT
         elif turn - since >= rules.stuck_searches:
             reason = _TRAPPED
-        resultant(field, rules, hulls[0], 0, turn, target, rows, memory, frames, around, force)
-        if reason < 0:
-            move(field, rules, 0, turn, force, rows, memory)
-        if rules.two_sided:
-            late = reason < 0 and not rules.aims_at_old_end
-            aim = rows.path[0, turn + 1] if late else forward
-            resultant(field, rules, hulls[1], 1, turn, aim, rows, memory, frames, around, force)
+        for side in range(2 if rules.two_sided else 1):  # a loop, so that each is compiled once
+            aim = target
+            if side == 1:
+                late = reason < 0 and not rules.aims_at_old_end
+                aim = rows.path[0, turn + 1] if late else forward
+            resultant(
+                field, rules, hulls[side], side, turn, aim, rows, memory, frames, around, force
+            )
             if reason < 0:
-                move(field, rules, 1, turn, force, rows, memory)
+                move(field, rules, side, turn, force, rows, memory)
         if reason >= 0:
             return reason, turn
     return _STEP_LIMIT, rules.limit
 
 
-@kernel
+@inlined
 def resultant(field, rules, hulls, side, turn, target, rows, memory, frames, around, force):
     """F_att + F_rep of one half into ``force``; notes distances and gain factors."""
     q = rows.path[side, turn]
@@ -251,7 +253,7 @@ def resultant(field, rules, hulls, side, turn, target, rows, memory, frames, aro
                 add_torque(frames, joint, point, scaled(strength, vector(around[m, 1:])), force)
 
 
-@kernel
+@inlined
 def distances(field, hulls, row, k, point, around):
     """Distance of control point k to every shape and its gradient, into ``around`` (M, 4); returns
     which shape is nearest, -1 without any."""
@@ -279,16 +281,19 @@ def distances(field, hulls, row, k, point, around):
     return nearest
 
 
-@kernel
+@inlined
 def _note(around, m, found, radius):
     around[m, 0] = found[0] - radius
     around[m, 1], around[m, 2], around[m, 3] = found[1]
 
 
-@kernel
+@inlined
 def move(field, rules, side, turn, force, rows, memory):
     """One step of a half along ``force``, after a look for a flip."""
-    size = np.sqrt((force * force).sum())
+    size = 0.0
+    for j in range(len(force)):
+        size += force[j] * force[j]
+    size = np.sqrt(size)
     cosine = 0.0
     for j in range(len(force)):
         direction = force[j] / size if size > 0.0 else 0.0
@@ -296,7 +301,8 @@ def move(field, rules, side, turn, force, rows, memory):
         memory.direction[side, j] = direction
     if memory.moved[side] and is_flip(rules.flip, cosine):
         memory.flips[side] += 1
-        memory.flip_distance[side] = rows.clearance[side, turn]
+        for k in range(len(field.joint)):
+            memory.flip_distance[side, k] = rows.clearance[side, turn, k]
     memory.moved[side] = True
     length = step_length(
         rules.step_rule,

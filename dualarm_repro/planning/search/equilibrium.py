@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from ...differences import central_differences
 from ..field.joint_attraction import conic_force
@@ -93,7 +93,9 @@ def nearest_equilibria(
     found = []
     for start in starts:
         if place(start) is not None:
-            best = least_squares(residual, start, bounds=bounds, max_nfev=_EVALUATIONS)
+            best = scipy.optimize.least_squares(
+                residual, start, bounds=bounds, max_nfev=_EVALUATIONS
+            )
             placed = place(best.x)
             found += [] if placed is None else [equilibrium_at(made, *placed)]
     return found

@@ -8,13 +8,19 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arms import Arm
 from ...errors import InputError
+from ...kernel import kernel
 from ...scene.bodies import PlacedArm
+from ...tracking import kept_with_owner
 from ..descent.problem import checked_ends
 from ..field.control_points import ControlPoints, control_points
 from ..field.hull_obstacle import NO_HULL, HullTrack
 from ..field.obstacles import Obstacles
+from ..settings import PointSet
 from .bidirectional_settings import BidirectionalSettings
+
+_FLOAT = np.dtype(float)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +45,7 @@ class SearchProblem:
     @cached_property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits a step may not leave; infinite unless they are enforced."""
-        return self.placed.arm.limits(self.settings.enforce_limits)
+        return _limits(self.placed.arm, self.settings.enforce_limits)
 
 
 def search_problem(
@@ -60,19 +66,67 @@ def search_problem(
         Control points the arm lacks, radii or weights that do not match them, an obstacle that
         moves by itself, or links instead of points.
     """
-    ends = checked_ends(placed, start, goal, settings.enforce_limits)
-    points = control_points(placed.arm, settings.control_points)
-    counted = {"radii": settings.radii, "step.weights": settings.step.weights}
-    for field, values in counted.items():
+    arm = placed.arm
+    ends = _plain_ends(arm, start, goal, settings.enforce_limits)
+    if ends is None:
+        ends = checked_ends(placed, start, goal, settings.enforce_limits)
+    points, are_points = _points_of(arm, settings.control_points)
+    radii, weights = settings.radii, settings.step.weights
+    for field, values in (("radii", radii), ("step.weights", weights)):
         if values is not None and len(values) != len(points.joint):
             expected = f"{len(points.joint)} numbers, one for each of {', '.join(points.names)}"
             raise InputError("BidirectionalSettings", field, values, expected)
-    if settings.radii is not None:
-        points = points._replace(radius=np.array(settings.radii))
-    if obstacles.moving(0):
+    names, joint, local, radius, weight = points
+    radius = radius.copy() if radii is None else np.array(radii)
+    points = ControlPoints(names, joint.copy(), local.copy(), radius, weight.copy())
+    if len(obstacles.cores) > 1:
         raise InputError("search_problem", "obstacles", obstacles.names, "obstacles that stand")
-    if (points.local[:, 0] != points.local[:, 1]).any():
+    if not are_points:
         named = settings.control_points
         raise InputError("search_problem", "control_points", named, "points, not links")
     hulls = (NO_HULL, NO_HULL) if hulls is None else hulls
     return SearchProblem(placed, *ends, obstacles, settings, points, hulls)
+
+
+def _points_of(arm: Arm, choice: PointSet | tuple[int, ...]) -> tuple[ControlPoints, bool]:
+    """Control points of an arm, and whether they are points and not links; made once for an arm."""
+    kept = _kept_points(arm)
+    if choice not in kept:
+        points = control_points(arm, choice)
+        kept[choice] = points, bool((points.local[:, 0] == points.local[:, 1]).all())
+    return kept[choice]
+
+
+@kept_with_owner
+def _kept_points(_: Arm) -> dict[PointSet | tuple[int, ...], tuple[ControlPoints, bool]]:
+    return {}
+
+
+def _limits(arm: Arm, enforced: bool) -> tuple[np.ndarray, np.ndarray]:
+    """As :meth:`.Arm.limits`, without a check of a truth value."""
+    if enforced:
+        return arm.lower, arm.upper
+    return np.full(arm.nq, -np.inf), np.full(arm.nq, np.inf)
+
+
+def _plain_ends(
+    arm: Arm, start: ArrayLike, goal: ArrayLike, within_limits: bool
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Copies of ends that are plain arrays without a fault; None: look closer, and name it."""
+    if type(start) is not np.ndarray or type(goal) is not np.ndarray:
+        return None
+    ends = start.copy(), goal.copy()
+    for end in ends:
+        if end.dtype != _FLOAT or end.shape != (arm.nq,):
+            return None
+    return ends if _faultless(*ends, *_limits(arm, within_limits)) else None
+
+
+@kernel
+def _faultless(start, goal, lower, upper):
+    """Whether two ends are finite and within limits."""
+    for j in range(len(lower)):
+        for q in (start[j], goal[j]):
+            if not (np.isfinite(q) and lower[j] <= q <= upper[j]):
+                return False
+    return True

@@ -8,29 +8,78 @@ ends of the path.
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import make_smoothing_spline
 
 from ...errors import InputError
+from ...kernel import kernel
 
 
 def smoothed(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarray:
     """f at the samples of a path (N, nq), N >= 5.
+
+    f = phi - mu W^-1 Q g with (R + mu Q^T W^-1 Q) g = Q^T phi, a system of five diagonals.
 
     Parameters
     ----------
     smoothing : float
         mu >= 0; a larger one gives a smoother path.
     end_weight : float
-        w of the first and the last sample, 1 for the others.
+        w > 0 of the first and the last sample, 1 for the others.
 
     Raises
     ------
     InputError
-        Too few samples, or a negative ``smoothing``.
+        Too few samples or NaN among them, a negative ``smoothing``, an ``end_weight`` that is not
+        positive, or numbers so large that the curve is not finite.
     """
     weights = _weights(path, smoothing, end_weight)
-    samples = np.arange(len(path), dtype=float)
-    return make_smoothing_spline(samples, path, w=weights, lam=smoothing, axis=0)(samples)
+    found = np.array(path, dtype=float, order="C")
+    if not np.isfinite(found).all():
+        raise InputError("smoothed", "path", path, "finite numbers")
+    _smooth(found, weights, float(smoothing))
+    if not np.isfinite(found).all():
+        raise InputError("smoothed", "smoothing", smoothing, "a number whose curve is finite")
+    return found
+
+
+@kernel
+def _smooth(path, weights, smoothing):
+    """:func:`smoothed` in place, by L D L^T of the system."""
+    inner, joints = len(path) - 2, path.shape[1]
+    pivot, first, second = np.empty(inner), np.zeros(inner), np.zeros(inner)
+    g = np.empty((inner, joints))
+    for k in range(inner):
+        a, b, c = 1.0 / weights[k], 1.0 / weights[k + 1], 1.0 / weights[k + 2]
+        diagonal = 4.0 / 6.0 + smoothing * (a + 4.0 * b + c)
+        beside = 1.0 / 6.0 - 2.0 * smoothing * (b + c)
+        beyond = smoothing * c
+        if k >= 1:
+            diagonal -= first[k - 1] ** 2 * pivot[k - 1]
+            beside -= first[k - 1] * second[k - 1] * pivot[k - 1]
+        if k >= 2:
+            diagonal -= second[k - 2] ** 2 * pivot[k - 2]
+        pivot[k] = diagonal
+        if k + 1 < inner:
+            first[k] = beside / diagonal
+        if k + 2 < inner:
+            second[k] = beyond / diagonal
+        for j in range(joints):
+            g[k, j] = path[k, j] - 2.0 * path[k + 1, j] + path[k + 2, j]
+            if k >= 1:
+                g[k, j] -= first[k - 1] * g[k - 1, j]
+            if k >= 2:
+                g[k, j] -= second[k - 2] * g[k - 2, j]
+    for k in range(inner - 1, -1, -1):
+        for j in range(joints):
+            g[k, j] /= pivot[k]
+            if k + 1 < inner:
+                g[k, j] -= first[k] * g[k + 1, j]
+            if k + 2 < inner:
+                g[k, j] -= second[k] * g[k + 2, j]
+    for k in range(inner):
+        for j in range(joints):
+            path[k, j] -= smoothing / weights[k] * g[k, j]
+            path[k + 1, j] += 2.0 * smoothing / weights[k + 1] * g[k, j]
+            path[k + 2, j] -= smoothing / weights[k + 2] * g[k, j]
 
 
 def smoothed_directly(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarray:
@@ -47,10 +96,14 @@ def roughness(path: np.ndarray) -> float:
 
 
 def _weights(path: np.ndarray, smoothing: float, end_weight: float) -> np.ndarray:
+    if np.ndim(path) != 2:
+        raise InputError("smoothed", "path", np.shape(path), "samples (N, nq)")
     if len(path) < 5:
         raise InputError("smoothed", "path", f"{len(path)} samples", "at least 5")
-    if not smoothing >= 0.0:
+    if not 0.0 <= smoothing < np.inf:
         raise InputError("smoothed", "smoothing", smoothing, "a number that is not negative")
+    if not 0.0 < end_weight < np.inf:
+        raise InputError("smoothed", "end_weight", end_weight, "a positive number")
     weights = np.ones(len(path))
     weights[[0, -1]] = end_weight
     return weights

@@ -70,10 +70,12 @@ def replay(
     waits and the master goes on at its own pace of 1/(2 spread) a sample.
     """
     pace = 0.5 / spread
-    waits = np.maximum(np.ceil(np.diff(share) / pace - 1e-9).astype(int) - 1, 0)
-    common = [share[:1]]
-    rows = [0]
-    for k, extra in enumerate(waits):
-        common.append(np.linspace(share[k], share[k + 1], extra + 2)[1:])
-        rows += [k] * extra + [k + 1]
-    return along_path(master, np.concatenate(common)), slave[rows]
+    jump = np.diff(share)
+    parts = np.maximum(np.ceil(jump / pace - 1e-9).astype(int), 1)
+    last = np.cumsum(parts)
+    part = np.repeat(np.arange(len(parts)), parts)
+    done = np.arange(1, len(part) + 1) - (last - parts)[part]
+    common = np.concatenate([share[:1], share[part] + done * (jump / parts)[part]])
+    common[last] = share[1:]
+    rows = np.append(0, part + (done == parts[part]))
+    return along_path(master, common), slave[rows]

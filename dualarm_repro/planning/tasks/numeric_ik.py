@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares
 
 from ...scene.bodies import PlacedArm
 from ..field.control_points import end_effector
@@ -113,7 +113,7 @@ def _descended(placed: PlacedArm, goal: PoseGoal, seed: np.ndarray) -> PosePostu
             error = pin.skew(turn[:, goal.free]) @ spin
         return np.vstack([moved, length * error])
 
-    solved = least_squares(
+    solved = scipy.optimize.least_squares(
         residual,
         seed,
         jac=jacobian,

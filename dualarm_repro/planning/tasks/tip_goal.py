@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares
 
 from ...errors import InputError
 from ...scene.bodies import PlacedArm
@@ -45,7 +45,7 @@ def nearest_posture(placed: PlacedArm, point: ArrayLike, near: ArrayLike) -> Tip
     seeds = np.vstack([near, arm.random_configurations(_SEEDS, rng)])
     found = []
     for seed in np.clip(seeds, arm.lower + inside, arm.upper - inside):
-        solution = least_squares(
+        solution = scipy.optimize.least_squares(
             lambda q: end_effector(placed, q) - target,
             seed,
             jac=lambda q: turn @ arm.jacobian(q)[:3],

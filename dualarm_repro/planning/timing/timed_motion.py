@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from ...errors import InputError
 from ...quiet_import import quietly
@@ -213,4 +213,4 @@ def _fastest(
     _, rate, _ = method.compute_parameterization(0.0, 0.0)
     if rate is None or not np.isfinite(rate).all() or (rate[:-1] + rate[1:] <= 0.0).any():
         raise InputError("timing", "path", len(path), "a path that can be timed within the limits")
-    return TimedSpline(CubicSpline(at, path), grid, np.square(rate))
+    return TimedSpline(scipy.interpolate.CubicSpline(at, path), grid, np.square(rate))

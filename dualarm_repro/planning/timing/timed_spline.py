@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,7 @@ class TimedSpline:
 
     Attributes
     ----------
-    spline : CubicSpline
+    spline : scipy.interpolate.CubicSpline
         s -> q (nq,) [rad].
     grid : ndarray (G,)
         Increasing s, all knots of the spline among them.
@@ -31,7 +31,7 @@ class TimedSpline:
         x = s'^2 at the grid; of two neighbours one is positive.
     """
 
-    spline: CubicSpline
+    spline: scipy.interpolate.CubicSpline
     grid: np.ndarray
     square: np.ndarray
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 from ...scene import PlacedArm
 from ..field.potentials import JointAttraction, PositionAttraction, Potential, Sum
@@ -25,7 +25,9 @@ def descend(field: Potential, start: np.ndarray) -> np.ndarray:
     """End (nq,) of a quasi-Newton descent of U(q), restarted until it no longer moves [rad]."""
     q = start
     for _ in range(5):
-        found = minimize(field.value, q, jac=field.gradient, method="BFGS", options={"gtol": 1e-10})
+        found = scipy.optimize.minimize(
+            field.value, q, jac=field.gradient, method="BFGS", options={"gtol": 1e-10}
+        )
         if np.abs(found.x - q).max() < 1e-6:
             break
         q = found.x

@@ -7,7 +7,7 @@ business of :mod:`.held`.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 from ..descent.problem import PlanningProblem
 from ..descent.termination import within
@@ -36,7 +36,7 @@ def stationary(made: PlanningProblem, last: np.ndarray, gradient: np.ndarray) ->
     rest = len(made.obstacles.cores) - 1
     found = gradient <= STATIONARY
     for k in np.flatnonzero(~found):
-        end = minimize(
+        end = scipy.optimize.minimize(
             made.field.value,
             last[k],
             (rest,),

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from base64 import b64decode, b64encode
 from collections.abc import Iterator
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +18,16 @@ from ...arms import Arm
 from ...arms.catalog import arm_names
 from ...arms.robot_file import URDFRobot, load_robot_file
 from ...datafiles import data_path
+from ...ledger import REGISTRY, kept
+from ...ledger.closure import hash_file
 from .contents import Part
 
 #: What a description's README or LICENSE may say for its meshes to be part of a page.
 _FREE = re.compile(r"license:\s*(BSD|Apache|MIT)", re.IGNORECASE)
 #: Triangles of a whole arm.
 _BUDGET = 12_000
+_KIND = "meshes"
+_Meshes = tuple[list[str], list[tuple[int, np.ndarray, np.ndarray, np.ndarray]]]
 
 
 def visual_parts(name: str, arm: Arm, color: str, base: str) -> list[Part]:
@@ -83,14 +89,38 @@ def _parts(name: str, arm: Arm, color: str, base: str, path: Path) -> Iterator[P
 
 
 @cache
-def _meshes(
-    path: Path, kept: frozenset[str]
-) -> tuple[list[str], list[tuple[int, np.ndarray, np.ndarray, np.ndarray]]]:
-    """Names of the joints, and of each mesh the joint, the pose there, and few triangles."""
+def _meshes(path: Path, joints: frozenset[str]) -> _Meshes:
+    """Names of the joints, and of each mesh the joint, the pose there, and few triangles.
+
+    They are kept from one process to the next, for this code, this description and the versions of
+    what reads it: reading all triangles takes longer than a plan.
+    """
+    name = sha256(" ".join([hash_file(path), *sorted(joints)]).encode()).hexdigest()[:32]
+    found = kept.read(REGISTRY, _KIND, name)
+    if found is None:
+        names, meshes = _decimated_meshes(path, joints)
+        written = [[joint, *map(_written, arrays)] for joint, *arrays in meshes]
+        found = {"names": names, "meshes": written}
+        kept.keep(REGISTRY, _KIND, name, found, [__name__], [], drawn=True)
+    return found["names"], [(mesh[0], *map(_read, mesh[1:])) for mesh in found["meshes"]]
+
+
+def _written(array: np.ndarray) -> dict[str, Any]:
+    """An array as JSON holds it, every bit of it."""
+    form = {"type": array.dtype.str, "shape": list(array.shape)}
+    return {**form, "bytes": b64encode(array.tobytes()).decode()}
+
+
+def _read(written: dict[str, Any]) -> np.ndarray:
+    flat = np.frombuffer(b64decode(written["bytes"]), dtype=written["type"])
+    return flat.reshape(written["shape"]).copy()
+
+
+def _decimated_meshes(path: Path, joints: frozenset[str]) -> _Meshes:
     full = pin.buildModelFromUrdf(str(path))
     folders = [str(folder) for folder in path.resolve().parents]
     shapes = pin.buildGeomFromUrdf(full, str(path), pin.GeometryType.VISUAL, package_dirs=folders)
-    locked = [k for k in range(1, full.njoints) if full.names[k] not in kept]
+    locked = [k for k in range(1, full.njoints) if full.names[k] not in joints]
     reduced, shapes = pin.buildReducedModel(full, shapes, locked, pin.neutral(full))
     found = [s for s in shapes.geometryObjects if hasattr(s.geometry, "tri_indices")]
     raw = [(np.asarray(m.geometry.vertices()) * m.meshScale, _triangles(m.geometry)) for m in found]

@@ -48,6 +48,23 @@ def test_kinds_limits_and_kinematics(lift, rng):
 
 
 @pytest.mark.parametrize(
+    ("lower", "upper", "kind"),
+    [
+        ("-1e16", "1e16", JointType.CONTINUOUS),
+        ("-1e16", "3", JointType.REVOLUTE),
+        ("-900", "900", JointType.REVOLUTE),
+    ],
+)
+def test_limits_that_say_there_are_none(lower, upper, kind, tmp_path):
+    limit = f"<limit lower='{lower}' upper='{upper}' effort='1' velocity='1'/>"
+    links = (*map(link, ("b", "l1")), joint("turn", "b", "l1", "revolute", "0 1 0", limit=limit))
+    arm = load_arm(write(tmp_path, *links))
+    assert arm.types == (kind,)
+    expected = np.inf if kind is JointType.CONTINUOUS else float(upper)
+    assert arm.upper[0] == expected
+
+
+@pytest.mark.parametrize(
     ("value", "angle"), [(0.7, 0.7), ("90 deg", math.pi / 2), ("-pi/4", -math.pi / 4)]
 )
 def test_an_angle_to_lock_at(value, angle, lift):

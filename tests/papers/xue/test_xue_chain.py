@@ -172,11 +172,12 @@ class TestFields:
         assert np.isnan(printed_field.value("eq09", 7, {}))
 
 
-class TestArrangement:
-    @pytest.fixture(scope="class")
-    def layout(self, registry):
-        return nominal().layout
+@pytest.fixture(scope="module")
+def layout(registry):
+    return nominal().layout
 
+
+class TestArrangement:
     def test_points_of_the_arrangement(self, layout):
         base = np.array([layout.master_base_x, layout.master_base_y, layout.master_base_z])
         np.testing.assert_array_equal(layout.master_base, base)

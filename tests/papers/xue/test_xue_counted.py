@@ -353,11 +353,12 @@ class TestPaths:
         assert "[%]" in left.get_xlabel()
 
 
-class TestPlanners:
-    @pytest.fixture(scope="class")
-    def scenes(self, registry):
-        return rows_of("planners")
+@pytest.fixture(scope="module")
+def scenes(registry):
+    return rows_of("planners")
 
+
+class TestPlanners:
     def test_postures_saved(self, scenes, stored):
         arrived = [row for row in scenes if row["points_arrives"]]
         told = stored["claim_efficient"]

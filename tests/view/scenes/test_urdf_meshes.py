@@ -41,3 +41,22 @@ def test_without_a_licence_nothing_is_shown(monkeypatch):
 
     monkeypatch.setattr(urdf_meshes, "_FREE", re.compile("license: never"))
     assert visual_parts("a", load_arm("panda"), "#0072B2", "a/0") == []
+
+
+def test_kept_meshes_are_those_that_were_made(monkeypatch, tmp_path):
+    monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
+    arm = load_arm("panda")
+    path, joints = urdf_meshes._description(arm), frozenset(arm.model.names)
+    names, made = urdf_meshes._decimated_meshes(path, joints)
+    urdf_meshes._meshes.cache_clear()
+    urdf_meshes._meshes(path, joints)
+    urdf_meshes._meshes.cache_clear()
+    monkeypatch.setattr(urdf_meshes, "_decimated_meshes", None)
+    again, kept = urdf_meshes._meshes(path, joints)
+    urdf_meshes._meshes.cache_clear()
+    assert again == names
+    for one, other in zip(made, kept, strict=True):
+        assert one[0] == other[0]
+        for before, now in zip(one[1:], other[1:], strict=True):
+            assert before.dtype == now.dtype
+            np.testing.assert_array_equal(before, now)

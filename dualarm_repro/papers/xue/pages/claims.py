@@ -265,11 +265,11 @@ def _told(name: str, one: dict[str, Any]) -> str:
     sign = 1.0 if one["value"] >= 0.0 else -1.0
     ends = sorted(sign * one[end] for end in ("low", "high"))
     if name == "radius":
-        value, low, high = (f"{1e3 * end:.1f}" for end in (sign * one["value"], *ends))
+        value, low, high = (f"{1e3 * end:z.1f}" for end in (sign * one["value"], *ends))
         unit = "mm"
     else:
         shares = (-100 * sign * np.expm1(-sign * end) for end in (sign * one["value"], *ends))
-        value, low, high = (f"{share:.0f}" for share in shares)
+        value, low, high = (f"{share:z.0f}" for share in shares)
         unit = "%"
     return f"{better if sign > 0 else worse} by {value} {unit} ({low} to {high})"
 

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from dualarm_repro.arms.wrist_ik import inverse_kinematics
 from dualarm_repro.ledger import REGISTRY
 from dualarm_repro.papers.pan.document import printed_optimum
 from dualarm_repro.papers.pan.pages.optimum import curves, printed_point, problem, starts
@@ -14,6 +15,7 @@ from dualarm_repro.papers.pan.reading import Problem, solved, surveyed
 from dualarm_repro.papers.pan.studies.consistency import CONSISTENCY, OBJECTIVES
 from dualarm_repro.papers.pan.studies.fit import FIT
 from dualarm_repro.welding import ROBOTS, Status
+from dualarm_repro.welding.placement import statuses
 
 PRINTED = np.array([0.023, -0.266, 0.404])
 
@@ -190,16 +192,34 @@ def test_shares_of_what_is_excluded_are_those_of_the_grid(declared, stored):
 
 
 def test_a_path_of_lost_starts_adds_up(declared, stored):
-    status, found = surveyed(declared).status, stored["claim_bad_start"]
+    grid, found = surveyed(declared), stored["claim_bad_start"]
     assert found["share"] == pytest.approx(found["lost"] / found["begun"])
-    lost = np.isin(status, (Status.OUT_OF_REACH, Status.JOINT_LIMITS)).sum()
-    assert found["lost"] <= lost
-    paths = np.isin(status, (Status.FEASIBLE, Status.COLLISION)).sum()
-    singular = (status == Status.SINGULAR).sum()
-    # every position with full paths is begun, too; a singular one may be
-    assert paths <= found["begun"] - found["lost"] <= paths + singular
-    assert stored["claim_meets_singularity"]["singular"] == singular
-    assert stored["claim_meets_collision"]["with_paths"] == paths
+    alone = statuses(declared.job.cell(), grid.points)
+    no_path = np.isin(alone, (Status.OUT_OF_REACH, Status.JOINT_LIMITS)).any(axis=1)
+    assert found["begun"] - found["lost"] == (~no_path).sum()  # who has full paths has begun
+    singular = ~no_path & (alone == Status.SINGULAR).any(axis=1)
+    assert stored["claim_meets_singularity"]["singular"] == singular.sum()
+    assert stored["claim_meets_singularity"]["with_paths"] == (~no_path).sum()
+    paths = np.isin(grid.status, (Status.FEASIBLE, Status.COLLISION))
+    assert stored["claim_meets_collision"]["with_paths"] == paths.sum()
+    assert (paths == ~no_path & ~singular).all()
+
+
+def test_a_robot_that_fails_does_not_hide_the_others(declared):
+    """The survey names what fails first; where that is a singularity, others may have no path."""
+    grid, cell = surveyed(declared), declared.job.cell()
+    first = grid.points[grid.status == Status.SINGULAR]
+    alone = statuses(cell, first)
+    assert len(first) > 0
+    assert (alone == Status.SINGULAR).any(axis=1).all()
+    poses = cell.flanges[2][np.newaxis] + np.zeros((len(first), 1, 1, 1))
+    poses = poses.copy()
+    poses[..., :3, 3] += first[:, np.newaxis]
+    flat = (np.linalg.inv(cell.bases[2]) @ poses).reshape(-1, 4, 4)
+    free = np.full(6, np.inf)
+    branches = inverse_kinematics(cell.geometries[2], flat, np.zeros(6), -free, free)
+    reached = (~np.isnan(branches[..., 0])).any(axis=1).reshape(len(first), -1).all(axis=1)
+    assert ((alone[:, 2] == Status.OUT_OF_REACH) | reached).all()
 
 
 def test_contacts_by_pair(declared, stored):

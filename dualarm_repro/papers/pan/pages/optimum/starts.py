@@ -13,11 +13,12 @@ from .....scene.scene import FLOOR
 from .....view.landscape import statuses_figure
 from .....welding import Status
 from .....welding.landscape import reaches_point
-from .....welding.placement import blocks
+from .....welding.placement import blocks, statuses
 from ...reading import Job, Measure, Problem, surveyed
 
 checks = partial(REGISTRY.checks, page="pan/optimum")
 caption = captions(__file__)
+_NO_PATH = (Status.OUT_OF_REACH, Status.JOINT_LIMITS)
 #: What the constraints exclude is the same for every reading of (16).
 _ANY_MEASURE = Measure("equal", "translational", "mean", "product", "mmr", "mean", "m")
 
@@ -37,14 +38,16 @@ def bad_start(assumed: Assumed) -> Result:
     task = Problem.of(assumed, _ANY_MEASURE)
     grid = surveyed(task)
     begun = reaches_point(task.job.cell(), grid.points, 0)
-    no_path = np.isin(grid.status, (Status.OUT_OF_REACH, Status.JOINT_LIMITS))
-    lost = grid.status[begun & no_path]
+    alone = _alone(task.job, grid.points)
+    no_path = np.isin(alone, _NO_PATH).any(axis=1)
+    far = (alone == Status.OUT_OF_REACH).any(axis=1)
+    lost = np.where(far, Status.OUT_OF_REACH, Status.JOINT_LIMITS)[begun & no_path]
     found = Status(int(np.bincount(lost).argmax())) if len(lost) else None
     return Result(
         obtained={
             "lost": len(lost),
             "begun": int(begun.sum()),
-            "share": float(no_path[begun].mean()) if begun.any() else None,
+            "share": float(no_path[begun].mean()) if begun.any() else None,  # type: ignore[index]
             "mostly": found.name.lower().replace("_", " ") if found is not None else None,
         },
         caption=caption("claim_bad_start", positions=len(grid.points)),
@@ -83,6 +86,11 @@ def meets_collision(assumed: Assumed) -> Result:
     )
 
 
+def _alone(job: Job, points: np.ndarray) -> np.ndarray:
+    """Status of every robot at positions (P, 3), whichever fails first -> (P, R)."""
+    return np.concatenate([statuses(job.cell(), block) for block in blocks(points)])
+
+
 def _contacts(job: Job, points: np.ndarray) -> pd.DataFrame:
     """Which owners (columns) touch somewhere along the seam at positions (P, 3) (rows)."""
     placement = job.placement()
@@ -108,9 +116,10 @@ def meets_singularity(assumed: Assumed) -> Result:
     """Positions of the grid at which all robots have paths and one of these is singular."""
     task = Problem.of(assumed, _ANY_MEASURE)
     grid = surveyed(task)
-    singular = int((grid.status == Status.SINGULAR).sum())
-    paths = np.isin(grid.status, (Status.FEASIBLE, Status.SINGULAR, Status.COLLISION))
+    alone = _alone(task.job, grid.points)
+    paths = ~np.isin(alone, _NO_PATH).any(axis=1)
+    singular = paths & (alone == Status.SINGULAR).any(axis=1)
     return Result(
-        obtained={"singular": singular, "with_paths": int(paths.sum())},
+        obtained={"singular": int(singular.sum()), "with_paths": int(paths.sum())},
         caption=caption("claim_meets_singularity", threshold=task.job.singularity_threshold),
     )

@@ -31,6 +31,7 @@ checks = partial(REGISTRY.checks, page="patent/network")
 caption = captions(__file__)
 START = 0.1  # size of the error at the start of a decay
 GAINS = (1.0, 10.0, 80.0)
+FAR = 10.0  # size of an error beyond which the differences of a steep penalty are noise
 HORIZON = 6.0  # [s] after which gamma = 1 has reached most of its ceiling
 _KINDS = ("growing", "start", "ceiling")
 _DONE = 1e-9  # error below every declared threshold, after which nothing is left to see
@@ -208,6 +209,7 @@ def state_equation(assumed: Assumed) -> Result:
     rng = np.random.default_rng(SEED)
     k = int(motion.distance[:-1].argmin())
     q, t, worst = np.ascontiguousarray(motion.q[k]), float(motion.time[k]), 0.0
+    on_motion = np.concatenate([motion.x[k], np.zeros(size - n)])
 
     def error(s: float, y: np.ndarray, move: np.ndarray) -> np.ndarray:
         """xi a time s later."""
@@ -219,7 +221,9 @@ def state_equation(assumed: Assumed) -> Result:
         return F
 
     for _ in range(10):
-        y = np.concatenate([motion.x[k], np.zeros(size - n)]) + 0.02 * rng.normal(size=size)
+        y, away = on_motion, 0.02 * rng.normal(size=size)
+        while np.abs(error(0.0, y := on_motion + away, y[:n])).max() > FAR and away.any():
+            away *= 0.5
         rate = np.empty(size)
         state_rate(
             arrays, numbers, numbered, circle, q, scenario.q0, t, y, no_noise, still, buffers, rate

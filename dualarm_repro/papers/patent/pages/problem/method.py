@@ -101,7 +101,6 @@ def flow_chart_figure(assumed: Assumed) -> Result:
         obtained={
             "parts": [part for part, _ in groups],
             "steps": [texts for _, texts in groups],
-            "returns": len(trace()),
         },
         table=pd.DataFrame(rows, columns=["part", "step", "code"]),
         caption=caption("fig01", groups=groups),

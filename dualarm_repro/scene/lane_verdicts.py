@@ -1,0 +1,221 @@
+"""Which of a block of configurations of different edges leave a pair uncertain, in SIMD lanes.
+
+As :mod:`.lane_distances`, but each lane has a way of its own, and a contact is told of its lane
+alone: the answer has bit k where d <= margin + ways[k], and bit LANES + k where d <= margin too.
+A lane is answered from its own numbers only, whatever is in the others, so that the answer for an
+edge does not hang on the edges beside it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from ..kernel import inlined, kernel
+from .boxes import segment_box_distance
+from .lane_distances import LANES, _clamp, _core, _gap, near_point
+from .polytope import Polytope, segment_polytope
+from .vectors import into_frame, rotated_back
+
+_X, _Y, _Z, _U, _V, _W = (k * LANES for k in range(6))
+
+
+def _lowest_bit(context: Any, bits: Any) -> Any:
+    def built(_: Any, builder: Any, __: Any, parts: Any) -> Any:
+        return builder.cttz(parts[0], ir.Constant(ir.IntType(1), 1))
+
+    return types.int64(types.int64), built
+
+
+#: Number of the lowest bit of an integer that is not 0.
+_lowest: Any = intrinsic(_lowest_bit)
+
+
+@inlined
+def _verdict(square, apart, way):
+    """Bits 0 and LANES of a lane from a squared distance."""
+    need = apart + way
+    contact = (1 << LANES) if square <= apart * apart else 0
+    return (1 if square <= need * need else 0) | contact
+
+
+@kernel
+def near_spheres(ends, a, b, apart, travel, from_a, from_b):
+    """Bits of the lanes whose spheres around two capsules are not far enough from each other."""
+    near = 0
+    for k in range(LANES):
+        x = ends[b, _X + k] - ends[a, _X + k]
+        y = ends[b, _Y + k] - ends[a, _Y + k]
+        z = ends[b, _Z + k] - ends[a, _Z + k]
+        need = apart + (travel[a, from_a, k] + travel[b, from_b, k])
+        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+    return near
+
+
+@kernel
+def near_standing(ends, a, stands, b, apart, travel):
+    """The same of a capsule and one that stands."""
+    near = 0
+    for k in range(LANES):
+        x = stands[b, 0] - ends[a, _X + k]
+        y = stands[b, 1] - ends[a, _Y + k]
+        z = stands[b, 2] - ends[a, _Z + k]
+        need = apart + travel[a, 0, k]
+        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+    return near
+
+
+@kernel
+def queue_capsules(
+    queue, owner, count, near, ends, a, b, square_a, square_b, apart, travel, from_a, from_b
+):
+    """Put the lanes ``near`` of two capsules that move at the end of a queue (Q, 13, LANES) whose
+    ``owner`` (Q, LANES) are the lanes; returns the new length."""
+    while near:
+        k, n, i = _lowest(near), count // LANES, count % LANES
+        for r in range(3):
+            queue[n, r, i] = ends[b, r * LANES + k] - ends[a, r * LANES + k]
+            queue[n, 3 + r, i] = ends[a, (3 + r) * LANES + k]
+            queue[n, 6 + r, i] = ends[b, (3 + r) * LANES + k]
+        queue[n, 9, i], queue[n, 10, i] = square_a, square_b
+        queue[n, 11, i], queue[n, 12, i] = apart, travel[a, from_a, k] + travel[b, from_b, k]
+        owner[n, i] = k
+        near, count = near & (near - 1), count + 1
+    return count
+
+
+@kernel
+def queue_standing(
+    queue, owner, count, near, ends, a, stands, b, square_a, square_b, apart, travel
+):
+    """The same for a capsule and one that stands, ``stands[b]``: its middle and half core."""
+    while near:
+        k, n, i = _lowest(near), count // LANES, count % LANES
+        for r in range(3):
+            queue[n, r, i] = stands[b, r] - ends[a, r * LANES + k]
+            queue[n, 3 + r, i] = ends[a, (3 + r) * LANES + k]
+            queue[n, 6 + r, i] = stands[b, 3 + r]
+        queue[n, 9, i], queue[n, 10, i] = square_a, square_b
+        queue[n, 11, i], queue[n, 12, i] = apart, travel[a, 0, k]
+        owner[n, i] = k
+        near, count = near & (near - 1), count + 1
+    return count
+
+
+@kernel
+def queue_verdict(queue, owner, count):
+    """Of the first ``count`` entries of a queue, into the bits of their lanes."""
+    found = 0
+    for i in range(count, -(-count // LANES) * LANES):
+        owner[i // LANES, i % LANES] = 2 * LANES  # bits that are no lane's
+    for n in range(-(-count // LANES)):
+        found |= _row_verdict(queue, owner, n)
+    return found
+
+
+@kernel
+def _row_verdict(queue, owner, n):
+    found = 0
+    for k in range(LANES):
+        square = _gap(
+            queue[n, 0, k],
+            queue[n, 1, k],
+            queue[n, 2, k],
+            queue[n, 3, k],
+            queue[n, 4, k],
+            queue[n, 5, k],
+            queue[n, 6, k],
+            queue[n, 7, k],
+            queue[n, 8, k],
+            queue[n, 9, k],
+            queue[n, 10, k],
+        )
+        found |= _verdict(square, queue[n, 11, k], queue[n, 12, k]) << owner[n, k]
+    return found
+
+
+@kernel
+def ball_verdict(ends, a, stands, b, extent, apart, travel):
+    """A capsule and a sphere that stands."""
+    p0, p1, p2 = stands[b, 0], stands[b, 1], stands[b, 2]
+    uu, found = extent * extent, 0
+    inverse = 1.0 / uu if uu > 0.0 else 0.0
+    for k in range(LANES):
+        x, y, z = p0 - ends[a, _X + k], p1 - ends[a, _Y + k], p2 - ends[a, _Z + k]
+        u, v, w = ends[a, _U + k], ends[a, _V + k], ends[a, _W + k]
+        s = _clamp((x * u + y * v + z * w) * inverse)
+        x, y, z = x - s * u, y - s * v, z - s * w
+        found |= _verdict(x * x + y * y + z * z, apart, travel[a, 0, k]) << k
+    return found
+
+
+@kernel
+def plane_verdict(a, plane, apart, ways):
+    """A capsule and a half-space, n . x <= offset: d = n . m - |n . v| - offset - r."""
+    n0, n1, n2, offset = plane[0], plane[1], plane[2], plane[3]
+    found = 0
+    for k in range(LANES):
+        height = n0 * a[_X + k] + n1 * a[_Y + k] + n2 * a[_Z + k] - offset
+        lean = n0 * a[_U + k] + n1 * a[_V + k] + n2 * a[_W + k]
+        low = height - abs(lean) - apart
+        contact = (1 << LANES) if low <= 0.0 else 0
+        found |= ((1 if low <= ways[k] else 0) | contact) << k
+    return found
+
+
+@kernel
+def box_verdict(a, pose, half, extent, apart, ways):
+    """A capsule and a box: exactly where the sphere around the capsule does not tell."""
+    near, found = 0, 0
+    p0, p1, p2, h0, h1, h2 = pose[0, 3], pose[1, 3], pose[2, 3], half[0], half[1], half[2]
+    r00, r10, r20 = pose[0, 0], pose[1, 0], pose[2, 0]
+    r01, r11, r21 = pose[0, 1], pose[1, 1], pose[2, 1]
+    r02, r12, r22 = pose[0, 2], pose[1, 2], pose[2, 2]
+    for k in range(LANES):
+        x, y, z = a[_X + k] - p0, a[_Y + k] - p1, a[_Z + k] - p2
+        e = max(abs(r00 * x + r10 * y + r20 * z) - h0, 0.0)
+        f = max(abs(r01 * x + r11 * y + r21 * z) - h1, 0.0)
+        g = max(abs(r02 * x + r12 * y + r22 * z) - h2, 0.0)
+        need = apart + extent + ways[k]
+        near |= (1 if e * e + f * f + g * g <= need * need else 0) << k
+    if near == 0:
+        return 0
+    for k in range(LANES):
+        if near >> k & 1:
+            start, core = _core(a, k)
+            gap = segment_box_distance(
+                into_frame(pose, start), rotated_back(pose, core), (h0, h1, h2)
+            )
+            found |= _gap_verdict(gap, apart, ways[k]) << k
+    return found
+
+
+@kernel
+def hull_verdict(a, hulls, row, extent, apart, ways):
+    """A capsule and a convex hull: exactly where the spheres around both do not tell."""
+    near = near_point(a, hulls.around[row], apart + extent + hulls.around[row, 3], 1.0, ways)
+    if near == 0:
+        return 0
+    first, last, found = hulls.first[row], hulls.first[row + 1], 0
+    polytope = Polytope(
+        hulls.solids.vertices[first[0] : last[0]],
+        hulls.solids.planes[first[1] : last[1]],
+        hulls.solids.corners[first[1] : last[1]],
+        hulls.solids.edges[first[2] : last[2]],
+        hulls.solids.normals[first[2] : last[2]],
+    )
+    for k in range(LANES):
+        if near >> k & 1:
+            start, core = _core(a, k)
+            gap = segment_polytope(start, core, polytope)[0]
+            found |= _gap_verdict(gap, apart, ways[k]) << k
+    return found
+
+
+@inlined
+def _gap_verdict(gap, apart, way):
+    """Bits 0 and LANES of a lane from a distance, which may be negative."""
+    return (1 if gap <= apart + way else 0) | ((1 << LANES) if gap <= apart else 0)
