@@ -36,12 +36,11 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 @dataclass(frozen=True)
 class Circumstance:
-    """Environment variables, worker processes, the cache by its name, and whether the tree is a
-    copy elsewhere."""
+    """Environment variables, worker processes, and whether the tree is a copy elsewhere, which has
+    a cache of its own."""
 
     environment: Mapping[str, str] = field(default_factory=dict)
     jobs: int = 1
-    cache: str = "shared"
     elsewhere: bool = False
 
 
@@ -52,7 +51,7 @@ CIRCUMSTANCES = {
     "two workers": Circumstance(jobs=2),
     "two threads of the linear algebra": Circumstance(dict.fromkeys(_THREADS, "2")),
     "another seed of hashes": Circumstance({"PYTHONHASHSEED": "4242"}),
-    FOLDER: Circumstance(cache="elsewhere", elsewhere=True),
+    FOLDER: Circumstance(elsewhere=True),
 }
 
 
@@ -70,7 +69,8 @@ def outcomes(
     made = scratch / "made.json"
     made.unlink(missing_ok=True)
     usual = {"PYTHONHASHSEED": "0", **dict.fromkeys(_THREADS, "1"), "MPLBACKEND": "agg"}
-    own = {"PYTHONPATH": str(root), "DUALARM_CACHE": str(scratch / one.cache)}
+    cache = scratch / ("cache elsewhere" if one.elsewhere else "cache")
+    own = {"PYTHONPATH": str(root), "DUALARM_CACHE": str(cache)}
     command = [sys.executable, str(root / "tools" / "portable_outcomes.py"), str(made)]
     done = subprocess.run(
         [*command, str(cells), str(one.jobs), *item_ids],
@@ -82,10 +82,11 @@ def outcomes(
 
 
 def _copied(folder: Path) -> Path:
-    for name in TREE if not folder.exists() else ():
+    if folder.exists():
+        return folder
+    for name in TREE:
         if (source := ROOT / name).is_dir():
-            skip = ignore_patterns("__pycache__", "*.pyc")
-            copytree(source, folder / name, ignore=skip)
+            copytree(source, folder / name, ignore=ignore_patterns("__pycache__", "*.pyc"))
         else:
             (folder / name).write_bytes(source.read_bytes())
     return folder
