@@ -7,7 +7,8 @@ import calls
 import commands
 import numpy as np
 import pytest
-from outcome import COMPILED, PATIENCE, judged
+from numba import njit
+from outcome import COMPILED, PATIENCE, Hang, judged, patience
 from targets import cases, targets
 
 from dualarm_repro.errors import InputError
@@ -64,6 +65,24 @@ def test_the_judge_knows_defects():
     assert judged(stumbles)[0] == judged(breaks_the_line)[0] == "defect"
     assert judged(lambda: (1.0, np.array([math.nan])))[1] == "NaN for finite input"
     assert judged(lambda: 1.0, nan_given=True)[1] == "answers for NaN"
+
+
+def test_the_compiler_is_never_ended_midway():
+    # Many branches that all differ, so that it compiles for far longer than the patience.
+    body = "".join(f"    x = x * {k}.5 if x > {k} else x + {k}\n" for k in range(200))
+    made = {}
+    exec(f"def long(x):\n{body}    return x", made)
+    long = njit(made["long"])
+
+    @patience(0.05)
+    def forever():
+        while True:
+            long(0.5)
+
+    with pytest.raises(Hang):
+        forever()
+    assert long.signatures
+    assert long(0.5) == made["long"](0.5)
 
 
 @pytest.mark.parametrize(
