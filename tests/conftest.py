@@ -5,6 +5,8 @@ once, and the book built after it none. A test that is marked ``long`` runs in `
 it tries, another test tries in short, or the mark gives the reason why none does.
 """
 
+import gc
+
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
@@ -33,6 +35,12 @@ def pytest_collection_modifyitems(config, items):
         for mark in [item.get_closest_marker("long")]
     ]
     items.sort(key=lambda item: -cost_of(group_of(item.nodeid)))
+
+
+def pytest_collection_finish():
+    """Thousands of tests are no garbage, and looking through them again and again is no test."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(optionalhook=True)

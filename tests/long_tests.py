@@ -8,6 +8,11 @@ import pytest
 COLLECTED = pytest.StashKey[list[tuple[str, dict[str, str] | None]]]()
 
 
+def long_where(dear, values):
+    """Parameters of a test; those that are dear are tried in the long form only."""
+    return [pytest.param(one, marks=[pytest.mark.long] if dear(one) else []) for one in values]
+
+
 def without_short_form(collected):
     """Long tests that nothing short stands for.
 

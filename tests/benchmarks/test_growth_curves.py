@@ -1,14 +1,16 @@
 """Growth curves: what is measured at which size, and what is claimed of it."""
 
 from importlib import import_module
+from types import SimpleNamespace
 
 import growth
 import growth_claims
 import numpy as np
 import pytest
 import timing
-from curves import obstacles
+from curves import obstacles, workers
 from growth import Series
+from long_tests import long_where
 
 import dualarm_repro.scene as scene
 
@@ -78,7 +80,7 @@ def test_one_core_says_nothing_of_two_workers():
     assert (one["gate_holds"], one["reason"]) == (None, "not measured: one core")
 
 
-@pytest.mark.parametrize("name", growth.names())
+@pytest.mark.parametrize("name", long_where("workers".__eq__, growth.names()))
 def test_the_first_series_of_a_curve_is_ours(name):
     curve = import_module(f"curves.{name}")
     found = curve.series()
@@ -88,6 +90,25 @@ def test_the_first_series_of_a_curve_is_ours(name):
         assert found[0].name == "dualarm_repro"
         assert all(list(s.sizes) == sorted(s.sizes) for s in found)
         found[0].prepare(found[0].sizes[0])()
+
+
+def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(monkeypatch):
+    computed, now = [], [0.0]
+
+    def cell(k, _):
+        now[0] += 1.5
+        computed.append(k)
+        return k
+
+    study = SimpleNamespace(name="dear", cells=lambda: [{}] * 40, cell=cell)
+    monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"dear": study}))
+    monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
+    workers._drawn.cache_clear()
+    spent = workers._drawn("dear")
+    assert list(spent.values()) == [1.5, 1.5]
+    computed.clear()
+    assert sorted(np.concatenate(workers._by(1, study)())) == sorted([*spent] * 2)
+    assert sorted(computed) == sorted([*spent] * 2)
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():

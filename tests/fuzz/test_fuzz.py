@@ -7,14 +7,16 @@ import calls
 import commands
 import numpy as np
 import pytest
+from long_tests import long_where
 from numba import njit
 from outcome import COMPILED, PATIENCE, Hang, judged, patience
 from targets import cases, targets
 
 from dualarm_repro.errors import InputError
 
-#: Cases in all, and memory that they may take beyond what is taken already.
-CASES, MEMORY = 10_000, 6 * 2**30
+#: Cases in all, how many of them are tried in short, and memory that they may take beyond what is
+#: taken already.
+CASES, SHORT, MEMORY = 10_000, 1_500, 6 * 2**30
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -30,9 +32,10 @@ def bounded_memory():
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("name", targets())
-def test_only_our_own_errors_and_no_nan(name):
+@pytest.mark.parametrize("total", long_where(CASES.__eq__, [SHORT, CASES]))
+def test_only_our_own_errors_and_no_nan(total, name):
     found = {}
-    for seed in range(cases(name, CASES)):
+    for seed in range(cases(name, total)):
         kind, what, case = targets()[name](seed)
         if kind == "defect":
             found.setdefault(what, (seed, case))
