@@ -1,8 +1,8 @@
 """Shared by all tests: a registry, a quiet and reproducible hypothesis profile, the long tests.
 
 Records come from the cache of the user, each kept under what it depends on: the suite computes each
-once, and the book built after it none. A test that is marked ``long`` runs in ``make trust``; what
-it tries, another test tries in short, or the mark gives the reason why none does.
+once. A test that is marked ``long`` runs in ``.ci/run`` and ``make trust``; what it tries, another
+test tries in short, or the mark gives the reason why none does.
 """
 
 import gc
