@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from functools import cache
+from itertools import count
 from time import perf_counter
 
 import numpy as np
@@ -15,8 +16,8 @@ from dualarm_repro.ledger.workers import results
 from dualarm_repro.papers import load
 
 TITLE, X = "cells of a stored study", "worker processes"
-SECONDS, LEAST = 1.0, 8  # of one worker, and cells
-LONGEST = 2.0  # [s] after which the cells that are drawn must do, however few
+SECONDS, LONGEST = 2.0, 3.0  # that the cells of a call take one worker, and at most
+EVEN = 8  # times the dearest cell: what is less cannot be shared evenly
 SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
 CHUNKS = 64  # as many as a study hands out
 ROUNDS = 2  # of calls that take long
@@ -24,12 +25,11 @@ MEMORY = False  # of the workers is not seen here
 
 
 def series() -> list[Series]:
-    """One series a study whose peers are here, over as many of its cells, drawn with a seed, as
-    take one worker about a second. Where these are few, since each is dear, every one is computed
-    twice, so that they can be shared evenly. The workers have started before."""
+    """One series a study whose peers are here, over as many of its cells as take one worker some
+    seconds. The workers have started before."""
     sizes = tuple(n for n in (1, 2, 4, 8) if n <= (os.cpu_count() or 1))
     studies = [study for study in load().studies.values() if not study.missing_peers()]
-    studies = [study for study in studies if sum(_drawn(study.name).values()) > SMALLEST]
+    studies = [study for study in studies if sum(_drawn(study.name)[1]) > SMALLEST]
     return [
         Series(study.name, lambda n, study=study: _by(n, study), sizes, rounds=ROUNDS)
         for study in studies
@@ -37,13 +37,11 @@ def series() -> list[Series]:
 
 
 def _by(workers: int, study: Study) -> Callable[[], object]:
-    cells, spent = study.cells(), _drawn(study.name)
-    chosen = sorted(spent, key=lambda k: -spent[k])  # the longest first, as in any fair share
-    if len(chosen) < LEAST:
-        chosen = np.repeat(chosen, 2).tolist()
-    parts = [part.tolist() for part in np.array_split(chosen, min(CHUNKS, len(chosen)))]
+    cells, calls = study.cells(), count()
 
     def run() -> list[object]:
+        chosen = _chosen(study.name, next(calls))
+        parts = [part.tolist() for part in np.array_split(chosen, min(CHUNKS, len(chosen)))]
         tasks = ((_computed, study, [(k, cells[k]) for k in part]) for part in parts)
         return list(results(tasks, len(parts), study.name, workers))
 
@@ -54,19 +52,32 @@ def _computed(study: Study, numbered: list[tuple[int, dict[str, object]]]) -> li
     return [study.cell(k, cell) for k, cell in numbered]
 
 
+def _chosen(name: str, call: int) -> list[int]:
+    """Cells of a call, the same for any number of workers. Each call has cells of its own, since a
+    process may remember what it has computed; where a few take so long that they cannot be shared
+    evenly, every call has these, the dearest first and each twice."""
+    order, spent = _drawn(name)
+    drawn = len(spent)
+    if sum(spent) < EVEN * max(spent):
+        dearest = np.argsort(spent)[::-1]
+        return [order[k] for k in np.repeat(dearest, 2).tolist()]
+    return [order[((call + 1) * drawn + k) % len(order)] for k in range(drawn)]
+
+
 @cache
-def _drawn(name: str) -> dict[int, float]:
-    """Cells of a study that are computed, the same for any number of workers, by their number, and
-    the seconds that each takes."""
+def _drawn(name: str) -> tuple[list[int], list[float]]:
+    """Numbers of all cells of a study in an order drawn with a seed, and the seconds of the first
+    of them, as many as a call computes."""
     study = load().studies[name]
     cells = study.cells()
     order = np.random.default_rng(0).permutation(len(cells)).tolist()
     study.cell(order[0], cells[order[0]])  # compiles
-    spent: dict[int, float] = {}
+    spent: list[float] = []
     for k in order:
         begun = perf_counter()
         study.cell(k, cells[k])
-        spent[k] = perf_counter() - begun
-        if sum(spent.values()) > (SECONDS if len(spent) >= LEAST else LONGEST):
+        spent.append(perf_counter() - begun)
+        total = sum(spent)
+        if total > LONGEST or (total > SECONDS and total >= EVEN * max(spent)):
             break
-    return spent
+    return order, spent

@@ -92,23 +92,46 @@ def test_the_first_series_of_a_curve_is_ours(name):
         found[0].prepare(found[0].sizes[0])()
 
 
-def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(monkeypatch):
-    computed, now = [], [0.0]
+@pytest.fixture
+def cells_computed(monkeypatch):
+    """Numbers of the cells of a study of fifty that take so long [s], as they are computed."""
 
-    def cell(k, _):
-        now[0] += 1.5
-        computed.append(k)
-        return k
+    def use(seconds):
+        computed, now = [], [0.0]
 
-    study = SimpleNamespace(name="dear", cells=lambda: [{}] * 40, cell=cell)
-    monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"dear": study}))
-    monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
+        def cell(k, _):
+            now[0] += seconds
+            computed.append(k)
+
+        study = SimpleNamespace(name="toy", cells=lambda: [{}] * 50, cell=cell)
+        monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"toy": study}))
+        monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
+        workers._drawn.cache_clear()
+        return study, computed
+
+    yield use
     workers._drawn.cache_clear()
-    spent = workers._drawn("dear")
-    assert list(spent.values()) == [1.5, 1.5]
+
+
+def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(cells_computed):
+    study, computed = cells_computed(1.75)
+    order, spent = workers._drawn("toy")
+    assert spent == [1.75, 1.75]
+    call = workers._by(1, study)
     computed.clear()
-    assert sorted(np.concatenate(workers._by(1, study)())) == sorted([*spent] * 2)
-    assert sorted(computed) == sorted([*spent] * 2)
+    call()
+    call()
+    assert sorted(computed) == sorted([*order[:2]] * 4)
+
+
+def test_each_call_has_cells_that_its_process_has_not_computed(cells_computed):
+    study, computed = cells_computed(0.2)
+    drawn = len(workers._drawn("toy")[1])
+    call = workers._by(1, study)
+    call()
+    call()
+    assert drawn == 11
+    assert len(computed) == len({*computed}) + 1 == 1 + 3 * drawn, "one is computed to compile"
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():
