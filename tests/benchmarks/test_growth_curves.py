@@ -10,7 +10,6 @@ import pytest
 import timing
 from curves import obstacles, workers
 from growth import Series
-from long_tests import long_where
 
 import dualarm_repro.scene as scene
 
@@ -80,21 +79,20 @@ def test_one_core_says_nothing_of_two_workers():
     assert (one["gate_holds"], one["reason"]) == (None, "not measured: one core")
 
 
-@pytest.mark.parametrize("name", long_where("workers".__eq__, growth.names()))
+@pytest.mark.parametrize("name", [name for name in growth.names() if name != "workers"])
 def test_the_first_series_of_a_curve_is_ours(name):
     curve = import_module(f"curves.{name}")
     found = curve.series()
     assert curve.TITLE
     assert curve.X
-    if name != "workers":  # which are all ours, one a study
-        assert found[0].name == "dualarm_repro"
-        assert all(list(s.sizes) == sorted(s.sizes) for s in found)
-        found[0].prepare(found[0].sizes[0])()
+    assert found[0].name == "dualarm_repro"
+    assert all(list(s.sizes) == sorted(s.sizes) for s in found)
+    found[0].prepare(found[0].sizes[0])()
 
 
 @pytest.fixture
-def cells_computed(monkeypatch):
-    """Numbers of the cells of a study of fifty that take so long [s], as they are computed."""
+def study_of(monkeypatch):
+    """A study of fifty cells that take so long [s], and the numbers of those that are computed."""
 
     def use(seconds):
         computed, now = [], [0.0]
@@ -106,32 +104,27 @@ def cells_computed(monkeypatch):
         study = SimpleNamespace(name="toy", cells=lambda: [{}] * 50, cell=cell)
         monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"toy": study}))
         monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
-        workers._drawn.cache_clear()
+        monkeypatch.setattr(workers, "sleep", lambda _: None)
         return study, computed
 
-    yield use
-    workers._drawn.cache_clear()
+    return use
 
 
-def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(cells_computed):
-    study, computed = cells_computed(1.75)
-    order, spent = workers._drawn("toy")
-    assert spent == [1.75, 1.75]
-    call = workers._by(1, study)
+def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(study_of):
+    study, computed = study_of(5.0)
+    drawn, order = workers.drawn("toy"), workers.order_of(study)
+    assert drawn == [5.0, 5.0]
     computed.clear()
-    call()
-    call()
-    assert sorted(computed) == sorted([*order[:2]] * 4)
+    assert workers.spent("toy", 1, drawn)["seconds"] == 20.0
+    assert sorted(computed) == sorted([order[0], *order[:2] * 2])
 
 
-def test_each_call_has_cells_that_its_process_has_not_computed(cells_computed):
-    study, computed = cells_computed(0.2)
-    drawn = len(workers._drawn("toy")[1])
-    call = workers._by(1, study)
-    call()
-    call()
-    assert drawn == 11
-    assert len(computed) == len({*computed}) + 1 == 1 + 3 * drawn, "one is computed to compile"
+def test_no_cell_is_computed_again_where_there_are_enough(study_of):
+    computed = study_of(0.2)[1]
+    drawn = workers.drawn("toy")
+    computed.clear()
+    assert workers.spent("toy", 1, drawn)["seconds"] == pytest.approx(0.2 * len(drawn))
+    assert len({*computed}) == len(computed) == 1 + len(drawn)
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():
