@@ -45,7 +45,7 @@ lab: $(VENV)/.lab  ## open the pages as notebooks in JupyterLab
 notebooks-test: $(VENV)/.installed  ## run every notebook of the built book from a wheel, outside the clone
 	$(BIN)/python tools/notebooks_test.py
 
-test: $(VENV)/.installed  ## run the test suite, the long tests in `make trust`
+test: $(VENV)/.installed  ## run the test suite; `make trust` runs the long tests
 	$(BIN)/python tools/prerun.py --records
 	$(BIN)/python -m pytest -n auto
 

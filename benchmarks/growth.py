@@ -1,7 +1,8 @@
 """Growth curves: time and peak memory over the size of a problem, each in a process of its own.
 
-A curve is a module of ``curves/`` with ``TITLE``, ``X`` and a function ``series()``. Peers are
-timed by turns with ours at every size, up to the largest that is worth waiting for.
+A curve is a module of ``curves/`` with ``TITLE``, ``X`` and a function ``series()``, or ``times()``
+where it measures in a way of its own. Peers are timed by turns with ours at every size, up to the
+largest that is worth waiting for.
 """
 
 from __future__ import annotations
@@ -135,7 +136,8 @@ def main(name: str, what: str, rounds: int, budget: float) -> None:
     if what == "memory":
         print(json.dumps(memory(curve.series()) if getattr(curve, "MEMORY", True) else {}))
         return
-    found = times(curve.TITLE, curve.X, curve.series(), rounds, budget)
+    own = getattr(curve, "times", None)
+    found = own() if own else times(curve.TITLE, curve.X, curve.series(), rounds, budget)
     print(json.dumps({"name": name, **found}))
 
 

@@ -1,9 +1,11 @@
 """Shared by all tests: a registry, a quiet and reproducible hypothesis profile, the long tests.
 
 Records come from the cache of the user, each kept under what it depends on: the suite computes each
-once, and the book built after it none. A test that is marked ``long`` runs in ``make trust``; what
-it tries, another test tries in short, or the mark gives the reason why none does.
+once. A test that is marked ``long`` runs in ``.ci/run`` and ``make trust``; what it tries, another
+test tries in short, or the mark gives the reason why none does.
 """
+
+import gc
 
 import matplotlib as mpl
 import pytest
@@ -33,6 +35,12 @@ def pytest_collection_modifyitems(config, items):
         for mark in [item.get_closest_marker("long")]
     ]
     items.sort(key=lambda item: -cost_of(group_of(item.nodeid)))
+
+
+def pytest_collection_finish():
+    """Thousands of tests are no garbage, and looking through them again and again is no test."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -8,6 +8,18 @@ import pytest
 COLLECTED = pytest.StashKey[list[tuple[str, dict[str, str] | None]]]()
 
 
+def long_where(dear, values):
+    """Parameters of a test, or tuples of several; those that are dear are tried in the long form
+    only."""
+    return [
+        pytest.param(
+            *(one if isinstance(one, tuple) else (one,)),
+            marks=[pytest.mark.long] if dear(one) else [],
+        )
+        for one in values
+    ]
+
+
 def without_short_form(collected):
     """Long tests that nothing short stands for.
 

@@ -10,18 +10,15 @@ Ends with 1 if anything did.
 from __future__ import annotations
 
 import argparse
-import json
-import os
-import subprocess
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from shutil import copytree, ignore_patterns
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from verify_portable import CELLS, SEED, compare
+from tree_copy import copy_tree
+from verify_portable import CELLS, SEED, compare, computed
 
 from dualarm_repro.ledger.files import to_json, write_text
 from dualarm_repro.papers import load
@@ -65,31 +62,12 @@ def outcomes(
     RuntimeError
         The process failed.
     """
-    root = _copied(scratch / "a tree") if one.elsewhere else ROOT
-    made = scratch / "made.json"
-    made.unlink(missing_ok=True)
+    root = copy_tree(ROOT, TREE, scratch / "a tree") if one.elsewhere else ROOT
     usual = {"PYTHONHASHSEED": "0", **dict.fromkeys(_THREADS, "1"), "MPLBACKEND": "agg"}
     cache = scratch / ("cache elsewhere" if one.elsewhere else "cache")
     own = {"PYTHONPATH": str(root), "DUALARM_CACHE": str(cache)}
-    command = [sys.executable, str(root / "tools" / "portable_outcomes.py"), str(made)]
-    done = subprocess.run(
-        [*command, str(cells), str(one.jobs), *item_ids],
-        env={**os.environ, **usual, **own, **one.environment}, cwd=root, check=False,
-    )  # fmt: skip
-    if done.returncode or not made.is_file():
-        raise RuntimeError(f"the process ended with {done.returncode}")
-    return dict(json.loads(made.read_text(encoding="utf-8")))
-
-
-def _copied(folder: Path) -> Path:
-    if folder.exists():
-        return folder
-    for name in TREE:
-        if (source := ROOT / name).is_dir():
-            copytree(source, folder / name, ignore=ignore_patterns("__pycache__", "*.pyc"))
-        else:
-            (folder / name).write_bytes(source.read_bytes())
-    return folder
+    environment = {**usual, **own, **one.environment}
+    return computed(root, environment, item_ids, cells, one.jobs, scratch / "made.json")
 
 
 def counted(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -10,16 +10,17 @@ import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from shutil import copytree, ignore_patterns
 from signal import SIGINT, SIGKILL, SIGTERM, SIGXCPU
 from typing import Any
 
 import yaml
+from tree_copy import copy_tree
 
 from dualarm_repro.ledger.trust.mutants import Mutant, sample
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "dualarm_repro"
+TREE = (PACKAGE, "data", "tests", "tools", "pyproject.toml", "CITATION.cff")
 ROOMS = tuple(
     f"{PACKAGE}/{room}" for room in ("arms", "scene", "planning", "control", "welding", "ledger")
 )
@@ -62,11 +63,7 @@ class Copy:
 
     def __init__(self, folder: Path, *, recompute: bool = True) -> None:
         self.folder = folder / "tree"
-        skip = ignore_patterns("__pycache__", "*.pyc")
-        for name in (PACKAGE, "data", "tests", "tools"):
-            copytree(ROOT / name, self.folder / name, ignore=skip)
-        for name in ("pyproject.toml", "CITATION.cff"):
-            (self.folder / name).write_bytes((ROOT / name).read_bytes())
+        copy_tree(ROOT, TREE, self.folder)
         self._env = os.environ | {
             "PYTHONPATH": str(self.folder),
             "DUALARM_CACHE": str(folder / "cache"),

@@ -14,6 +14,7 @@ import sys
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -75,8 +76,8 @@ def isolate_kernels(folder: Path) -> None:
     os.environ["IPYTHONDIR"] = str(folder)
 
 
-def warm(item_ids: Iterable[str] | None = None) -> None:
-    """Compute the record and the pictures of every item once, in parallel.
+def warm(item_ids: Iterable[str] | None = None, drawn: bool = True) -> None:
+    """Compute the record of every item once, in parallel, and its pictures if it is to be drawn.
 
     The items of a page go together, since they share what they compute; the longest page first, so
     that none runs alone at the end.
@@ -90,13 +91,13 @@ def warm(item_ids: Iterable[str] | None = None) -> None:
             pages.setdefault(checker.page, []).append(item_id)
     order = sorted(pages.values(), key=lambda ids: -sum(costs.get(i, 0.0) for i in ids))
     with ProcessPoolExecutor() as pool:
-        list(pool.map(_compute, order))
+        list(pool.map(partial(_compute, drawn), order))
 
 
-def _compute(item_ids: list[str]) -> None:
+def _compute(drawn: bool, item_ids: list[str]) -> None:
     for item_id in item_ids:
         with suppress(Exception):  # the page that shows the item will report it
-            pictures(load(), item_id)
+            (pictures if drawn else record)(load(), item_id)
 
 
 def page_key(page: Path) -> str:
@@ -182,7 +183,7 @@ def prerun(book: Path, cache_folder: Path, timeout: int) -> dict[str, str]:
 def main() -> int:
     """Execute the notebooks of the book; 1 if any failed. ``--records``: compute records only."""
     if "--records" in sys.argv[1:]:
-        warm()
+        warm(drawn=False)
         return 0
     config = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))
     build = ROOT / "_build"

@@ -16,7 +16,7 @@ import random
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,6 @@ from dualarm_repro.ledger.reference import declared, read_reference
 from dualarm_repro.papers import load
 
 ROOT = Path(__file__).resolve().parents[1]
-_OUTCOMES = Path(__file__).with_name("portable_outcomes.py")
 #: The tests of this tool itself need a process without settings.
 _TESTS = ("-m", "pytest", "--ignore", "tests/book/test_verify_portable.py")
 COMBINED = "everything"
@@ -45,15 +44,45 @@ STRESS = "fused"
 SPREAD = 1e-8
 
 
-def run(setting: Setting, arguments: Sequence[str], scratch: Path) -> subprocess.CompletedProcess:
-    """Run Python under a setting, without the records that the user's cache may hold."""
-    own = {
+def environment_of(setting: Setting, scratch: Path) -> dict[str, str]:
+    """Variables of a process under a setting, which has records of its own."""
+    return {
         "NUMBA_CACHE_DIR": str(scratch / setting.kernels),
         "DUALARM_CACHE": str(scratch / "records" / setting.name),
         **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+        **setting.environment,
     }
-    environment = {**os.environ, **own, **setting.environment}
-    return subprocess.run([sys.executable, *arguments], env=environment, cwd=ROOT, check=False)
+
+
+def run(
+    arguments: Sequence[str], environment: Mapping[str, str], root: Path = ROOT
+) -> subprocess.CompletedProcess:
+    """Run Python in a tree, with these variables beside those that are there."""
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, env={**os.environ, **environment}, cwd=root, check=False)
+
+
+def computed(
+    root: Path,
+    environment: Mapping[str, str],
+    item_ids: Sequence[str],
+    cells: int,
+    jobs: int,
+    made: Path,
+) -> dict[str, Any]:
+    """What `portable_outcomes.py` of a tree writes to a file, with these variables.
+
+    Raises
+    ------
+    RuntimeError
+        The process failed.
+    """
+    made.unlink(missing_ok=True)
+    program = str(root / "tools" / "portable_outcomes.py")
+    done = run([program, str(made), str(cells), str(jobs), *item_ids], environment, root)
+    if done.returncode or not made.is_file():
+        raise RuntimeError(f"{made.stem}: the process ended with {done.returncode}")
+    return dict(json.loads(made.read_text(encoding="utf-8")))
 
 
 def outcomes(
@@ -68,11 +97,8 @@ def outcomes(
     RuntimeError
         The process failed.
     """
-    made = scratch / f"{setting.name}.json"
-    done = run(setting, [str(_OUTCOMES), str(made), str(cells), "1", *item_ids], scratch)
-    if done.returncode or not made.is_file():
-        raise RuntimeError(f"{setting.name}: the process ended with {done.returncode}")
-    return json.loads(made.read_text(encoding="utf-8"))
+    environment = environment_of(setting, scratch)
+    return computed(ROOT, environment, item_ids, cells, 1, scratch / f"{setting.name}.json")
 
 
 def compare(found: dict[str, Any]) -> tuple[list[str], list[str]]:
@@ -142,7 +168,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for name in wanted:
             failed |= not _report(chosen[name], ids, Path(folder), runs, cells)
         if given.tests:
-            failed |= bool(run(chosen[COMBINED], _TESTS, Path(folder)).returncode)
+            changed = environment_of(chosen[COMBINED], Path(folder))
+            failed |= bool(run(_TESTS, changed).returncode)
     if given.spread:
         write_text(given.spread, to_json(spreads(runs)))
     return int(failed)

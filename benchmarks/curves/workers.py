@@ -2,67 +2,116 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Callable
-from functools import cache
-from time import perf_counter
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from time import perf_counter, sleep
 
 import numpy as np
-from growth import Series
 
 from dualarm_repro.ledger.study import Study
 from dualarm_repro.ledger.workers import results
 from dualarm_repro.papers import load
 
+ROOT = Path(__file__).resolve().parents[2]
 TITLE, X = "cells of a stored study", "worker processes"
-SECONDS, LEAST = 1.0, 8  # of one worker, and cells: fewer cannot be shared evenly
+SECONDS, LONGEST = 3.0, 8.0  # that the cells of a call take one worker, and at most
+EVEN = 8  # times the dearest cell: what is less cannot be shared evenly
 SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
 CHUNKS = 64  # as many as a study hands out
-ROUNDS = 3
 MEMORY = False  # of the workers is not seen here
 
 
-def series() -> list[Series]:
-    """One series a study whose peers are here, over as many of its cells, drawn with a seed, as
-    take one worker about a second, and at least eight. The workers have started before."""
-    sizes = tuple(n for n in (1, 2, 4, 8) if n <= (os.cpu_count() or 1))
-    studies = [study for study in load().studies.values() if not study.missing_peers()]
-    studies = [study for study in studies if sum(_drawn(study.name).values()) > SMALLEST]
-    return [
-        Series(study.name, lambda n, study=study: _by(n, study), sizes, rounds=ROUNDS)
-        for study in studies
-    ]
+def times() -> dict[str, object]:
+    """The curve, one series a study whose peers are here.
+
+    Every number of workers is tried in a process of its own, since one that has computed a cell
+    may remember what others share with it, and workers that are begun anew do not.
+    """
+    sizes = [n for n in (1, 2, 4, 8) if n <= (os.cpu_count() or 1)]
+    made = []
+    for name, study in load().studies.items():
+        spent = [] if study.missing_peers() else _in_a_process("drawn", name)
+        if sum(spent) > SMALLEST:
+            points = [{"x": n, **_in_a_process("spent", name, n, spent)} for n in sizes]
+            made.append({"name": name, "limit": False, "points": points})
+    return {"title": TITLE, "x": X, "series": made}
 
 
-def _by(workers: int, study: Study) -> Callable[[], object]:
-    cells, spent = study.cells(), _drawn(study.name)
-    chosen = sorted(spent, key=lambda k: -spent[k])  # the longest first, as in any fair share
-    parts = [part.tolist() for part in np.array_split(chosen, min(CHUNKS, len(chosen)))]
-
-    def run() -> list[object]:
-        tasks = ((_computed, study, [(k, cells[k]) for k in part]) for part in parts)
-        return list(results(tasks, len(parts), study.name, workers))
-
-    return run
-
-
-def _computed(study: Study, numbered: list[tuple[int, dict[str, object]]]) -> list[object]:
-    return [study.cell(k, cell) for k, cell in numbered]
-
-
-@cache
-def _drawn(name: str) -> dict[int, float]:
-    """Cells of a study that are computed, the same for any number of workers, by their number, and
-    the seconds that each takes."""
+def drawn(name: str) -> list[float]:
+    """Seconds of as many cells of a study, in an order drawn with a seed, as a call computes."""
     study = load().studies[name]
-    cells = study.cells()
-    order = np.random.default_rng(0).permutation(len(cells)).tolist()
+    cells, order = study.cells(), order_of(study)
     study.cell(order[0], cells[order[0]])  # compiles
-    spent: dict[int, float] = {}
+    spent: list[float] = []
     for k in order:
         begun = perf_counter()
         study.cell(k, cells[k])
-        spent[k] = perf_counter() - begun
-        if len(spent) >= LEAST and sum(spent.values()) > SECONDS:
+        spent.append(perf_counter() - begun)
+        total = sum(spent)
+        if total > LONGEST or (total > SECONDS and total >= EVEN * max(spent)):
             break
     return spent
+
+
+def spent(name: str, workers: int, drawn: Sequence[float]) -> dict[str, object]:
+    """Seconds of a call by so many workers, who have started and computed another cell each."""
+    study = load().studies[name]
+    order = order_of(study)
+    warm = [(_warmed, study, order[0])] * workers
+    list(results(warm, workers, name, workers))
+    parts = chunks(chosen(order, drawn))
+    tasks = ((_computed, study, part) for part in parts)
+    begun = perf_counter()
+    list(results(tasks, len(parts), name, workers))
+    taken = perf_counter() - begun
+    # Once, since what is computed again is remembered; and the CPU time is that of the workers.
+    return {"seconds": taken, "quartiles": [taken, taken], "cpu_seconds": taken}
+
+
+def chosen(order: Sequence[int], drawn: Sequence[float]) -> list[int]:
+    """Cells of a call, the same for any number of workers; where a few take so long that they
+    cannot be shared evenly, these, the dearest first and each twice."""
+    if sum(drawn) < EVEN * max(drawn):
+        dearest = np.argsort(drawn)[::-1]
+        return [order[k] for k in np.repeat(dearest, 2).tolist()]
+    return list(order[1 : len(drawn) + 1])
+
+
+def chunks(cells: Sequence[int]) -> list[list[int]]:
+    """Parts of the cells that are handed out, as those of a study are."""
+    return [part.tolist() for part in np.array_split(cells, min(CHUNKS, len(cells)))]
+
+
+def order_of(study: Study) -> list[int]:
+    """Numbers of all cells of a study in an order drawn with a seed."""
+    return np.random.default_rng(0).permutation(len(study.cells())).tolist()
+
+
+def _computed(study: Study, numbers: list[int]) -> list[object]:
+    cells = study.cells()
+    return [study.cell(k, cells[k]) for k in numbers]
+
+
+def _warmed(study: Study, number: int) -> None:
+    _computed(study, [number])
+    sleep(1.0)  # so that no worker gets the cell of another
+
+
+def _in_a_process(*asked: object) -> object:
+    command = [sys.executable, __file__, *map(json.dumps, asked)]
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    made = subprocess.run(
+        command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path}
+    )
+    if made.returncode:
+        raise RuntimeError(f"workers, {asked[1]}: exit code {made.returncode}")
+    return json.loads(made.stdout.splitlines()[-1])
+
+
+if __name__ == "__main__":
+    call, *arguments = map(json.loads, sys.argv[1:])
+    print(json.dumps({"drawn": drawn, "spent": spent}[call](*arguments)))

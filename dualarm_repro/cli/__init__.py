@@ -6,6 +6,7 @@ while a command is being imported is answered.
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import signal
@@ -23,12 +24,21 @@ TRACEBACK_VARIABLE = "DUALARM_TRACEBACK"
 FAILED, BAD_INPUT, UNFORESEEN, INTERRUPTED = 1, 2, 70, 130
 #: Files were written, but the motion in them did not arrive or is not certified free of contact.
 NOT_USABLE = 3
+#: New objects after which garbage is sought. Loading and compiling make many that stay, and almost
+#: no garbage: Python's own 700 would cost a tenth of the time of a first plan.
+_COLLECT_AFTER = 100_000
 
 
-def main() -> None:
-    """Entry point: exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not
-    be run, 130 when interrupted."""
-    with _interruptions() as seen:
+def process() -> None:
+    """Entry point of the process ``dualarm``, which nothing interrupts once it has answered."""
+    main(last=True)
+
+
+def main(last: bool = False) -> None:
+    """Exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not be run, 130
+    when interrupted; ``last`` if the process ends with it."""
+    gc.set_threshold(_COLLECT_AFTER, *gc.get_threshold()[1:])
+    with _interruptions(last) as seen:
         try:
             _write_what_the_encoding_lacks()
             code = _answer(sys.argv[1:])
@@ -117,8 +127,11 @@ def _mute(stream: Any) -> None:
 
 
 @contextmanager
-def _interruptions() -> Iterator[list[int]]:
-    """Note interruptions, whatever a library makes of the exception, and let only one end us."""
+def _interruptions(last: bool) -> Iterator[list[int]]:
+    """Note interruptions, whatever a library makes of the exception, and let only one end us.
+
+    After the ``last`` command of a process there is nothing left to interrupt but its end.
+    """
     seen: list[int] = []
 
     def stop(number: int, frame: FrameType | None) -> None:
@@ -134,4 +147,4 @@ def _interruptions() -> Iterator[list[int]]:
         return
     yield seen
     if not seen:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGINT, signal.SIG_IGN if last else before)

@@ -1,6 +1,6 @@
 """``python -m dualarm_repro.cli`` is ``dualarm``."""
 
-from . import main
+from . import process
 
 if __name__ == "__main__":
-    main()
+    process()

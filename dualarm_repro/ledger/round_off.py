@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
+from .workers import deaf
+
 if TYPE_CHECKING:
     from .study import Study
 
@@ -45,8 +47,13 @@ def moved_by_round_off(
         if moved >= set(asked):
             break
         # A process of its own: what was loaded before would keep its exact inputs.
-        with ProcessPoolExecutor(max_workers=1) as executor:
-            again = executor.submit(_nudged, study.nudge, seed, study, index, settings).result()
+        executor = ProcessPoolExecutor(max_workers=1)
+        try:
+            with deaf():
+                begun = executor.submit(_nudged, study.nudge, seed, study, index, settings)
+            again = begun.result()
+        finally:
+            executor.shutdown(kill_workers=True)  # which is at work only if we are interrupted
         moved |= {path_of(line) for line in study.differs(made, again)} & set(asked)
     return moved
 

@@ -2,11 +2,34 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 from warnings import filterwarnings
 
 from ..errors import InputError, LedgerError
+
+
+@contextmanager
+def deaf() -> Iterator[None]:
+    """Processes that are begun within never hear of an interruption: who began them does, and ends
+    them. Else each would tell of it in a traceback of its own."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    from joblib.externals.loky.backend import resource_tracker as of_joblib
+
+    # Their own processes are deaf, and starting one of them gives this process its hearing back.
+    resource_tracker.ensure_running()
+    of_joblib.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def results(
@@ -40,7 +63,8 @@ def results(
     if scheduler is None:
         # joblib renews a worker whose memory has grown; no task is lost, so the user need not know.
         filterwarnings("ignore", "A worker stopped while some jobs", UserWarning)
-        done = Parallel(n_jobs=jobs, return_as="generator")(calls)
+        with deaf():
+            done = Parallel(n_jobs=jobs, return_as="generator")(calls)
         yield from tqdm(done, total=count, desc=title, disable=not progress)
         return
     try:

@@ -1,13 +1,14 @@
 """Growth curves: what is measured at which size, and what is claimed of it."""
 
 from importlib import import_module
+from types import SimpleNamespace
 
 import growth
 import growth_claims
 import numpy as np
 import pytest
 import timing
-from curves import obstacles
+from curves import obstacles, workers
 from growth import Series
 
 import dualarm_repro.scene as scene
@@ -78,16 +79,52 @@ def test_one_core_says_nothing_of_two_workers():
     assert (one["gate_holds"], one["reason"]) == (None, "not measured: one core")
 
 
-@pytest.mark.parametrize("name", growth.names())
+@pytest.mark.parametrize("name", [name for name in growth.names() if name != "workers"])
 def test_the_first_series_of_a_curve_is_ours(name):
     curve = import_module(f"curves.{name}")
     found = curve.series()
     assert curve.TITLE
     assert curve.X
-    if name != "workers":  # which are all ours, one a study
-        assert found[0].name == "dualarm_repro"
-        assert all(list(s.sizes) == sorted(s.sizes) for s in found)
-        found[0].prepare(found[0].sizes[0])()
+    assert found[0].name == "dualarm_repro"
+    assert all(list(s.sizes) == sorted(s.sizes) for s in found)
+    found[0].prepare(found[0].sizes[0])()
+
+
+@pytest.fixture
+def study_of(monkeypatch):
+    """A study of fifty cells that take so long [s], and the numbers of those that are computed."""
+
+    def use(seconds):
+        computed, now = [], [0.0]
+
+        def cell(k, _):
+            now[0] += seconds
+            computed.append(k)
+
+        study = SimpleNamespace(name="toy", cells=lambda: [{}] * 50, cell=cell)
+        monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"toy": study}))
+        monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
+        monkeypatch.setattr(workers, "sleep", lambda _: None)
+        return study, computed
+
+    return use
+
+
+def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(study_of):
+    study, computed = study_of(5.0)
+    drawn, order = workers.drawn("toy"), workers.order_of(study)
+    assert drawn == [5.0, 5.0]
+    computed.clear()
+    assert workers.spent("toy", 1, drawn)["seconds"] == 20.0
+    assert sorted(computed) == sorted([order[0], *order[:2] * 2])
+
+
+def test_no_cell_is_computed_again_where_there_are_enough(study_of):
+    computed = study_of(0.2)[1]
+    drawn = workers.drawn("toy")
+    computed.clear()
+    assert workers.spent("toy", 1, drawn)["seconds"] == pytest.approx(0.2 * len(drawn))
+    assert len({*computed}) == len(computed) == 1 + len(drawn)
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from chapters import calls_in, cells_of, chapters_of, obtained_for
 from chapters import run as run_cells
+from long_tests import long_where
 
 from dualarm_repro.control import (
     ControllerSettings,
@@ -61,9 +62,11 @@ METHODS = {
         arc_speed timed certified_separation interpolation_offset torch_angles retract effort
     """,
 }
-#: Pages to run; the longest, which takes half a minute, only where there is time. The book runs it.
+#: Pages to run; those that take long only where there is time. The book runs them all.
 LONGEST = "patent/contest"
-RUN = [pytest.param(page, marks=[pytest.mark.long] if page == LONGEST else []) for page in METHODS]
+LONG = (LONGEST, "patent/avoidance", "patent/network", "pan/optimum", "pan/search")
+RUN = long_where(LONG.__contains__, METHODS)
+OF_A_LONG_PAGE = pytest.mark.long(reason="it reads what a page computes that takes long")
 
 
 def test_every_chapter_has_its_methods():
@@ -123,6 +126,7 @@ def test_the_programme_of_the_page_is_that_of_the_library():
     assert log["distance"].min() > names["settings"].inner - 1e-3
 
 
+@OF_A_LONG_PAGE
 def test_the_network_of_the_page_is_that_of_the_library():
     names = run_cells("patent/network").names
     assert np.abs(names["velocities"] - names["motion"].x).max() < 1e-8
@@ -131,6 +135,7 @@ def test_the_network_of_the_page_is_that_of_the_library():
     assert beside["network"][pressing].median() > 10 * beside["lag"][pressing].median()
 
 
+@OF_A_LONG_PAGE
 def test_the_draws_of_the_page_are_those_of_the_study():
     sample = run_cells("patent/avoidance").names["sample"]
     assert len(sample) >= 3
@@ -147,6 +152,7 @@ def test_the_cell_of_the_page_is_that_of_the_items():
     assert own.floor == judged.floor
 
 
+@OF_A_LONG_PAGE
 def test_the_loop_of_the_page_is_the_search():
     names = run_cells("pan/search").names
     assert names["again"]
@@ -173,7 +179,7 @@ def test_what_a_reader_of_patent_is_told_to_change_has_the_consequence():
     assert unfed.largest_error > 10 * fed.largest_error
 
 
-@pytest.mark.long(reason="it reads what the longest page computes")
+@OF_A_LONG_PAGE
 def test_without_feedback_a_wrong_state_is_kept():
     names = run_cells(LONGEST).names
     y0 = names["starts"]["random"]

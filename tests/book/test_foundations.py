@@ -92,7 +92,9 @@ def test_displayed_link_transforms_are_those_of_a_table(irb120):
         assert np.abs(difference).max() < 1e-12
 
 
-@pytest.mark.parametrize(("a", "alpha"), [(0.0, 0), (0.1, 0), (0.05, "pi/3")])
+@pytest.mark.parametrize(
+    ("a", "alpha"), [(0.0, 0), pytest.param(0.1, 0, marks=pytest.mark.long), (0.05, "pi/3")]
+)
 def test_other_convention_is_the_same_arm(a, alpha, rng):
     table = robot("irb120")
     last = table.joints[-1].model_copy(update={"a": a, "alpha": Angle.parse(alpha)})

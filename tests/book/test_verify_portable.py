@@ -7,6 +7,7 @@ import sys
 import machine_code
 import pytest
 import verify_portable
+from long_tests import long_where
 from machine_code import Setting, settings
 
 SETTINGS = {setting.name: setting for setting in settings()}
@@ -23,7 +24,7 @@ def test_nominal_is_this_process(machine):
     assert machine("nominal") == machine_code.probe()
 
 
-@pytest.mark.parametrize("name", PARTS)
+@pytest.mark.parametrize("name", long_where(lambda name: name not in ("libm", "fused"), PARTS))
 def test_a_part_takes_effect_and_leaves_the_rest(name, machine):
     here, there = machine_code.probe(), machine(name)
     setting = SETTINGS[name]

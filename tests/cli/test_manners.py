@@ -261,6 +261,23 @@ def test_an_interruption_is_one_line(delay, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} in (set(), whole)
 
 
+def test_once_it_has_answered_nothing_interrupts_its_end():
+    program = (
+        "import atexit, os, signal, sys\n"
+        "from dualarm_repro import cli\n"
+        "atexit.register(lambda: print(signal.getsignal(signal.SIGINT) == signal.SIG_IGN))\n"
+        "atexit.register(os.kill, os.getpid(), signal.SIGINT)\n"
+        "sys.argv = ['dualarm', '--version']\n"
+        "cli.{}()"
+    )
+    command = [sys.executable, "-c", program.format("process")]
+    made = subprocess.run(command, capture_output=True, text=True)
+    assert (made.returncode, made.stderr, made.stdout.split()[-1]) == (0, "", "True")
+    command = [sys.executable, "-c", program.format("main")]
+    made = subprocess.run(command, capture_output=True, text=True)
+    assert made.stdout.split()[-1] == "False", "more commands may follow"
+
+
 def test_a_full_disk_and_a_closed_pipe_are_no_traceback():
     with open("/dev/full", "w") as full:
         made = subprocess.run(

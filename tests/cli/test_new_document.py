@@ -76,6 +76,7 @@ def test_the_example_has_a_verdict(clone):
     assert read_yaml(clone / "data/papers/smith.yaml")["document"]["title"] == TITLE
 
 
+@pytest.mark.long(short="test_its_pages_are_in_the_book_and_run")
 def test_the_tests_of_the_clone_accept_it(clone):
     chosen = ("test_architecture", "ledger/test_completeness", "papers/test_ledger_of_papers",
               "papers/test_trust", "view/test_schemas", "test_metadata",

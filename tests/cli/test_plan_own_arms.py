@@ -14,6 +14,7 @@ import pinocchio as pin
 import pytest
 from example_robot_data import getModelPath
 from full_geometry import Replay
+from long_tests import long_where
 
 #: The documents of a URDF may differ from it in rounding only [m].
 ROUNDING = 1e-6
@@ -150,8 +151,13 @@ def coal_triangles(faces):
     return found
 
 
-@pytest.mark.parametrize(("method", "text"), SCENES.values(), ids=SCENES)
-def test_plan_is_free_by_full_geometry(dualarm, tmp_path, method, text):
+#: Kinematics of their own are compiled for these.
+LONG = ("two ur5", "two ur10", "two panda", "xarm7 with z1")
+
+
+@pytest.mark.parametrize("name", long_where(LONG.__contains__, SCENES))
+def test_plan_is_free_by_full_geometry(dualarm, tmp_path, name):
+    method, text = SCENES[name]
     path, solids = written(tmp_path, text)
     out = tmp_path / "out"
     code, _, err = dualarm("plan", path, "--method", method, "--out", out)
@@ -205,6 +211,7 @@ def test_a_plan_that_collides_is_said_to_by_both(dualarm, tmp_path):
     assert summary["links"]["minimum_distance_m"] - ROUNDING <= replay.smallest() <= 0.0
 
 
+@pytest.mark.long(short="test_a_continuous_joint_goes_the_short_way")
 def test_continuous_joints_go_the_short_way(dualarm, tmp_path):
     """From 3.0 to -3.0 rad is 0.28 rad over the back, not six the other way round."""
     path, solids = written(tmp_path, TURNING)
@@ -222,6 +229,17 @@ def test_continuous_joints_go_the_short_way(dualarm, tmp_path):
         # and may sway on its way, by much less than a turn
         assert np.abs(np.diff(q, axis=0)).sum(axis=0) == pytest.approx(short, abs=0.2)
     assert dualarm("check", path, out / "cell_left.csv", out / "cell_right.csv")[0] == 0
+
+
+def test_a_continuous_joint_goes_the_short_way(dualarm, tmp_path):
+    """The elbow of the lift, from 3.0 to -3.0 rad."""
+    method, text = SCENES["a prismatic lift"]
+    path, _ = written(tmp_path, text)
+    out = tmp_path / "out"
+    assert dualarm("plan", path, "--method", method, "--out", out)[0] == 0
+    elbow = pd.read_csv(out / "cell_left.csv")["q3"].to_numpy()
+    # a search ends within its own tolerance of the goal
+    assert elbow[-1] - elbow[0] == pytest.approx(2 * np.pi - 6.0, abs=1e-2)
 
 
 @pytest.mark.parametrize("method", ["apf-improved", "apf-bidirectional", "apf-whole-links"])

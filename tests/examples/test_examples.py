@@ -8,15 +8,21 @@ import sys
 from pathlib import Path
 
 import pytest
+from long_tests import long_where
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 ROOMS = {"arms", "scene", "planning", "control", "welding", "ledger"}
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_example_runs(path, tmp_path):
+#: These take seconds.
+LONG = ("load_arm", "sweep_on_cluster", "follow_paths", "add_planner")
+
+
+@pytest.mark.parametrize("name", long_where(LONG.__contains__, [one.stem for one in EXAMPLES]))
+def test_example_runs(name, tmp_path):
     """In a folder that is not its own, where it leaves nothing."""
+    path = ROOT / "examples" / f"{name}.py"
     run = subprocess.run(
         [sys.executable, str(path)], cwd=tmp_path, capture_output=True, text=True, timeout=300
     )

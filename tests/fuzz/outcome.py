@@ -11,23 +11,34 @@ from dualarm_repro.errors import DualArmError
 
 #: Longest processor time of a call [s], and longest line of an error.
 PATIENCE, LINE = 10.0, 6000
-#: The same where it compiles first.
-COMPILED = 120.0
+#: The same where it compiles first, and how often it is asked whether it still does [s].
+COMPILED, AGAIN = 120.0, 0.5
 
 
 class Hang(BaseException):
     """A call takes too long; no ``Exception``, so that nothing on the way swallows it."""
 
 
+def compiles(frame):
+    """Whether the compiler is at work. What ends it midway leaves a function that it takes for
+    compiled, and every later call of it fails."""
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").partition(".")[0] in ("numba", "llvmlite"):
+            return True
+        frame = frame.f_back
+    return False
+
+
 @contextmanager
 def patience(seconds=PATIENCE):
-    """Raise :class:`Hang` in what takes longer."""
+    """Raise :class:`Hang` in what takes longer, but never in the compiler."""
 
     def stop(number, frame):
-        raise Hang
+        if not compiles(frame):
+            raise Hang
 
     before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
     try:
         yield
     finally:

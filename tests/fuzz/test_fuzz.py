@@ -7,13 +7,16 @@ import calls
 import commands
 import numpy as np
 import pytest
-from outcome import COMPILED, PATIENCE, judged
+from long_tests import long_where
+from numba import njit
+from outcome import COMPILED, PATIENCE, Hang, judged, patience
 from targets import cases, targets
 
 from dualarm_repro.errors import InputError
 
-#: Cases in all, and memory that they may take beyond what is taken already.
-CASES, MEMORY = 10_000, 6 * 2**30
+#: Cases in all, how many of them are tried in short, and memory that they may take beyond what is
+#: taken already.
+CASES, SHORT, MEMORY = 10_000, 1_500, 6 * 2**30
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -29,9 +32,10 @@ def bounded_memory():
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("name", targets())
-def test_only_our_own_errors_and_no_nan(name):
+@pytest.mark.parametrize("total", long_where(CASES.__eq__, [SHORT, CASES]))
+def test_only_our_own_errors_and_no_nan(total, name):
     found = {}
-    for seed in range(cases(name, CASES)):
+    for seed in range(cases(name, total)):
         kind, what, case = targets()[name](seed)
         if kind == "defect":
             found.setdefault(what, (seed, case))
@@ -64,6 +68,24 @@ def test_the_judge_knows_defects():
     assert judged(stumbles)[0] == judged(breaks_the_line)[0] == "defect"
     assert judged(lambda: (1.0, np.array([math.nan])))[1] == "NaN for finite input"
     assert judged(lambda: 1.0, nan_given=True)[1] == "answers for NaN"
+
+
+def test_the_compiler_is_never_ended_midway():
+    # Many branches that all differ, so that it compiles for far longer than the patience.
+    body = "".join(f"    x = x * {k}.5 if x > {k} else x + {k}\n" for k in range(200))
+    made = {}
+    exec(f"def long(x):\n{body}    return x", made)
+    long = njit(made["long"])
+
+    @patience(0.05)
+    def forever():
+        while True:
+            long(0.5)
+
+    with pytest.raises(Hang):
+        forever()
+    assert long.signatures
+    assert long(0.5) == made["long"](0.5)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from long_tests import long_where
 
 from dualarm_repro.arms.trigonometry import sincos
 from dualarm_repro.datafiles import data_path
@@ -153,7 +154,11 @@ def test_stored_studies_are_up_to_date(name):
     assert load().studies[name].status() == "up to date"
 
 
-@pytest.mark.parametrize("name", STUDIES)
+#: Studies whose cells compute what brief ones do, and take a second or more.
+LONG = ("pan_fit", "xue_planners", "xue_search", "xue_paths", "pan_evolution", "pan_consistency")
+
+
+@pytest.mark.parametrize("name", long_where(LONG.__contains__, STUDIES))
 def test_a_cell_runs_no_code_and_opens_no_file_outside_its_closure(name, monkeypatch):
     study = load().studies[name]
     for module, constant, value in BRIEF.get(name, ()):

@@ -1,6 +1,7 @@
 """Random streams, workers and the record of a study: order, chunks and what is stored."""
 
 import json
+import signal
 
 import numpy as np
 import pandas as pd
@@ -28,6 +29,18 @@ def power(base, exponent):
 def test_results_come_in_the_order_of_the_tasks(jobs):
     tasks = ((power, k, 2) for k in range(7))
     assert list(results(tasks, 7, "squares", jobs)) == [k * k for k in range(7)]
+
+
+def hears(number, _):
+    """Whether a signal reaches the process in which this runs."""
+    return number not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals of POSIX")
+def test_workers_are_deaf_to_an_interruption_and_who_began_them_is_not():
+    asked = [(hears, number, 0) for number in (signal.SIGINT, signal.SIGTERM)]
+    assert list(results(asked, 2, "ears", jobs=2)) == [False, True]
+    assert hears(signal.SIGINT, 0)
 
 
 def test_results_are_shown_as_they_come(capsys):

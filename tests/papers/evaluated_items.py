@@ -5,19 +5,35 @@ import sys
 from functools import cache
 from pathlib import Path
 
+from long_tests import long_where
+
 from dualarm_repro.datafiles import data_root
 from dualarm_repro.ledger import evaluate
+from dualarm_repro.ledger.reference import read_costs
 from dualarm_repro.papers import load
 from dualarm_repro.tracking import recording
 
 REGISTRY = load()
 ATTEMPTED = sorted(REGISTRY.checkers)
+#: Beyond this processor time [s] an item is computed in the long form only, and by the book.
+SOON = 1.0
 #: Files that this process opens, whichever way.
 OPENED = set()
 #: Data files that an item opened without saying so.
 READ = {}
 #: What each item noted that it reads.
 NOTED = {}
+
+
+def is_dear(item_id):
+    """Whether an item, or one of the statements that it rests on, takes long."""
+    ids = (item_id, *REGISTRY.look(item_id).statements)
+    return any(read_costs().get(one, 0.0) > SOON for one in ids)
+
+
+def tried(item_ids):
+    """Items as parameters of a test."""
+    return long_where(is_dear, item_ids)
 
 
 def _listen(event, arguments):

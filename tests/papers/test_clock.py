@@ -9,13 +9,15 @@ from inspect import getsource
 
 import numpy as np
 import pytest
+from evaluated_items import tried
+from long_tests import long_where
 
 from dualarm_repro.ledger import evaluate
 from dualarm_repro.ledger.closure import closure
 from dualarm_repro.ledger.comparison import is_number
 from dualarm_repro.ledger.drift import differences
 from dualarm_repro.ledger.printed import leaves
-from dualarm_repro.ledger.reference import declared, outcome, read_costs, read_reference
+from dualarm_repro.ledger.reference import declared, outcome, read_reference
 from dualarm_repro.ledger.spot import spot_check
 from dualarm_repro.papers import load
 
@@ -49,17 +51,13 @@ ITEMS = [
     for item_id, checker in sorted(REGISTRY.checkers.items())
     if with_clocks(closure([checker.compute]).modules)
 ]
-#: Beyond this processor time [s] an item is long: it reads the same clocks as others.
-SOON = 2.0
-TRIED = [
-    pytest.param(item_id, marks=[pytest.mark.long] if read_costs().get(item_id, 0.0) > SOON else [])
-    for item_id in ITEMS
-]
 STUDIES = [
     name
     for name, study in sorted(REGISTRY.studies.items())
     if with_clocks(study.code["modules"]) and name not in DEAR
 ]
+#: Studies of which a cell takes seconds, or compiles for it: their clocks are those of the others.
+SLOW = {"xue_planners", "xue_paths", "xue_lottery", "xue_trials"}
 
 
 @pytest.fixture
@@ -94,14 +92,14 @@ def test_clocks_are_found():
     assert len(STUDIES) > 5
 
 
-@pytest.mark.parametrize("item_id", TRIED)
+@pytest.mark.parametrize("item_id", tried(ITEMS))
 def test_no_item_hangs_on_a_clock(item_id, false_clock):
     document = item_id.partition(".")[0]
     stored = read_reference(document)[item_id]
     assert differences(stored, outcome(REGISTRY, item_id), declared(REGISTRY, item_id)) == []
 
 
-@pytest.mark.parametrize("name", STUDIES)
+@pytest.mark.parametrize("name", long_where(SLOW.__contains__, STUDIES))
 def test_no_stored_cell_hangs_on_a_clock(name, false_clock):
     assert spot_check(REGISTRY.studies[name], 1, seed=20200344).wrong == []
 

@@ -10,6 +10,7 @@ import pytest
 from example_robot_data import getModelPath
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from long_tests import long_where
 from numpy.testing import assert_allclose, assert_array_equal
 
 from dualarm_repro import load_arm
@@ -92,7 +93,10 @@ def sliding_arm(folder):
     return load_arm(write(folder, *map(link, names), *joints), shapes="enclosing")
 
 
-@pytest.fixture(params=["irb120", "panda", "xarm_description/urdf/xarm7.urdf", "slide"])
+XARM = "xarm_description/urdf/xarm7.urdf"  # whose code takes the compiler half a minute
+
+
+@pytest.fixture(params=long_where(XARM.__eq__, ["irb120", "panda", XARM, "slide"]))
 def arm(request, tmp_path):
     """6R of a table, 7R, 7R of a URDF, and one with joints that slide."""
     if request.param == "slide":

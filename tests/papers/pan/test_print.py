@@ -1,6 +1,7 @@
 """Printed equations of `pan` decide: a slip in print, or nonsense in its place, is found."""
 
 import pytest
+from evaluated_items import evaluated
 
 from dualarm_repro.ledger import REGISTRY, evaluate
 from dualarm_repro.ledger.evaluation import prove
@@ -60,14 +61,14 @@ def printing(monkeypatch, registry):
 
 @pytest.mark.parametrize(("key", "field", "value"), SLIPS)
 def test_slip_in_print_changes_the_verdict(printing, key, field, value):
-    before = evaluate(REGISTRY, f"pan.{key}").verdict
+    before = evaluated(f"pan.{key}").verdict
     printing(key, field, value)
     assert evaluate(REGISTRY, f"pan.{key}").verdict != before
 
 
 @pytest.mark.parametrize("key", FORMULAS)
 def test_nonsense_in_print_changes_the_verdict(printing, key):
-    before = evaluate(REGISTRY, f"pan.{key}").verdict
+    before = evaluated(f"pan.{key}").verdict
     printing(key, "formula", "apples = 2*pears")
     assert evaluate(REGISTRY, f"pan.{key}").verdict != before
 
