@@ -264,6 +264,7 @@ def test_an_interruption_is_one_line(delay, tmp_path):
 def test_once_it_has_answered_nothing_interrupts_its_end():
     program = (
         "import atexit, os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # whatever is inherited
         "from dualarm_repro import cli\n"
         "atexit.register(lambda: print(signal.getsignal(signal.SIGINT) == signal.SIG_IGN))\n"
         "atexit.register(os.kill, os.getpid(), signal.SIGINT)\n"
