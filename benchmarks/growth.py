@@ -39,15 +39,12 @@ class Series:
         Increasing; where it ends, a larger one is not worth waiting for.
     limit
         Whether it is a bound of the machine, not an implementation.
-    rounds
-        At most so many at each size.
     """
 
     name: str
     prepare: Callable[[int], Callable[[], object]]
     sizes: Sequence[int]
     limit: bool = False
-    rounds: int = ROUNDS
 
 
 def names() -> list[str]:
@@ -91,9 +88,7 @@ def times(
     points: dict[str, list[dict[str, object]]] = {one.name: [] for one in series}
     for size in sorted({size for one in series for size in one.sizes}):
         rows = [
-            Row(str(size), one.name, one.prepare(size), 1, rounds=one.rounds)
-            for one in series
-            if size in one.sizes
+            Row(str(size), one.name, one.prepare(size), 1) for one in series if size in one.sizes
         ]
         for timing in by_turns(rows, rounds, budget):
             wall = timing.wall
