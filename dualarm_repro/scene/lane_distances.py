@@ -70,9 +70,10 @@ def _gap(x, y, z, u, v, w, e, f, g, uu, vv):
 
 
 @kernel
-def capsule_lanes(ends, radius, pairs, distance):
+def capsule_lanes(ends, radius, pairs, distance, column):
     """d = |core distance| - r_a - r_b of every pair (K, 2) for whole blocks of configurations,
-    ``distance`` (N, K); ``ends`` (N, C, 2, 3), ``radius`` (C,)."""
+    into the columns of ``distance`` (N, P) from ``column`` on; ``ends`` (N, C, 2, 3), ``radius``
+    (C,)."""
     w, gaps = np.empty((ends.shape[1], 7 * LANES)), np.empty(LANES)
     for start in range(0, len(distance), LANES):
         for c in range(len(w)):
@@ -81,7 +82,7 @@ def capsule_lanes(ends, radius, pairs, distance):
             i, j = pairs[n]
             _gaps(w[i], w[j], gaps)
             for k in range(LANES):
-                distance[start + k, n] = gaps[k] - radius[i] - radius[j]
+                distance[start + k, column + n] = gaps[k] - radius[i] - radius[j]
 
 
 @kernel
