@@ -104,4 +104,5 @@ def capsules_planes(ends, radius, planes, pairs, distance, witness, column):
             distance[n, column + k] = dot(up, p) - planes[j, 3] - radius[i]
             if witness.size:
                 p = along(p, -radius[i], up)
-                _write(witness[n, column + k], p, along(p, -distance[n, column + k], up), scaled(-1.0, up))
+                q = along(p, -distance[n, column + k], up)
+                _write(witness[n, column + k], p, q, scaled(-1.0, up))

@@ -112,7 +112,7 @@ class Obstacles:
         for pairs, kernel, bodies in parts:
             distance = np.empty((count, len(pairs)))
             witness = np.empty((count, len(pairs), 3, 3))
-            kernel(*bodies, pairs, distance, witness)
+            kernel(*bodies, pairs, distance, witness, 0)
             distances.append(distance.reshape(count, points, -1))
             witnesses.append(witness.reshape(count, points, -1, 3, 3))
         witness = np.concatenate(witnesses, axis=2)
