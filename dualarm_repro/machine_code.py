@@ -49,6 +49,14 @@ def compiled_folder() -> Path | None:
     return root / "compiled" if root else None
 
 
+def is_kept(module: str) -> bool | None:
+    """Whether there is machine code of any function of a module; None: none would be kept."""
+    folder = compiled_folder()
+    if folder is None:
+        return None
+    return any((folder / module / stamp(module)[:16]).glob("*.nbi"))
+
+
 class _Locator(_CacheLocator):
     """Machine code below the cache folder, by module and stamp."""
 
