@@ -141,7 +141,7 @@ def test_an_arm_has_arrived_if_it_is_there_and_the_planner_says_so(problem, off,
     [
         (lambda p: None, "planner odd: answer = 'NoneType': expected a FoundPath"),
         (lambda p: FoundPath(np.array([p.goal]), "reached"), "planner odd: path = .*begin at the"),
-        (lambda p: FoundPath(np.zeros(12), "reached"), "planner odd: path = .*rows of 12 joints"),
+        (lambda p: FoundPath(np.zeros(12), "reached"), r"planner odd: FoundPath: path .*\(N, nq\)"),
         (lambda p: FoundPath(np.zeros((2, 5)), "reached"), "planner odd"),
         (lambda p: 1 / 0, r"planner odd: method = 'odd'.*ZeroDivisionError: division by zero"),
         (lambda p: (_ for _ in ()).throw(SystemExit(3)), "planner odd.*SystemExit: 3"),

@@ -113,8 +113,9 @@ class Obstacles:
             distance = np.empty((count, len(pairs)))
             witness = np.empty((count, len(pairs), 3, 3))
             kernel(*bodies, pairs, distance, witness)
-            distances.append(distance.reshape(count, points, -1))
-            witnesses.append(witness.reshape(count, points, -1, 3, 3))
+            shapes = len(pairs) // points if points else 0
+            distances.append(distance.reshape(count, points, shapes))
+            witnesses.append(witness.reshape(count, points, shapes, 3, 3))
         witness = np.concatenate(witnesses, axis=2)
         return np.concatenate(distances, axis=2), witness[..., 0, :], -witness[..., 2, :]
 
