@@ -235,3 +235,10 @@ def test_lengths_of_a_path_by_hand(scene):
 def test_mean_advance_is_the_length_over_the_last_instant():
     track = np.array([[0.0, 0, 0], [3.0, 4.0, 0], [3.0, 4.0, 1.0]])
     assert mean_advance(track, np.array([0.0, 1.0, 4.0])) == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("path", [np.zeros(12), np.empty((0, 12)), np.zeros((2, 12, 1)), 0.0])
+def test_a_path_has_rows(path):
+    line = r"FoundPath: path \(its shape\) = .*finite numbers \(N, nq\), not empty"
+    with pytest.raises(InputError, match=line):
+        FoundPath(path, "reached")
