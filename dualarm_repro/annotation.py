@@ -245,8 +245,8 @@ def _array(convert: bool, marks: tuple[Any, ...]) -> Requirement:
         # An empty list is an array of floats; a mask over an array would be dropped unseen.
         if array.dtype.kind not in kinds or isinstance(value, np.ma.MaskedArray):
             raise _Wrong(value, expected)
-        fits = shape is None or shape.fits(array.shape, sizes)
-        if not fits or (FILLED in marks and not array.size):
+        empty = filled and not array.size
+        if empty or (shape is not None and not shape.fits(array.shape, sizes)):
             wanted = shape.told(sizes) if shape else ""
             raise _Wrong(array.shape, f"{what} {wanted}{filled}", " (its shape)")
         if array.dtype.kind == "f" and OPEN not in marks:
