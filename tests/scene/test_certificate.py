@@ -148,6 +148,7 @@ def test_reach_bounds_the_speed_of_every_core_point(name):
         (([0.0] * 12,), InputError, "JointPath: configurations"),
         (([[0.0] * 12] * 2, [1, 1]), InputError, "JointPath: index"),
         (([[0.0] * 12] * 2, None, 0.0), InputError, "certified_minimum: tolerance = 0.0"),
+        (([[0.0] * 12] * 2, None, 0.1, np.nan), InputError, "certified_minimum: enough = nan"),
     ],
 )
 def test_bad_arguments(arguments, error, message):
