@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
     from .registry import Registry
 
-_CHUNKS = 64
+#: Parts of a study that are handed out; a worker may wait for one at the end, so they are small.
+_CHUNKS = 256
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,7 @@ class Study:
         key = self.code["digest"][:16]
         folder = (scratch or Path("_build") / "studies") / f"{self.name}-{key}"
         chunks = np.array_split(np.arange(len(cells)), min(_CHUNKS, len(cells)))
-        kept = {k: _read_chunk(_chunk_path(folder, chunk)) for k, chunk in enumerate(chunks)}
+        kept = {k: _read_chunk(folder, chunk) for k, chunk in enumerate(chunks)}
         missing = [k for k, rows in kept.items() if rows is None]
         tasks = ((self._chunk, chunks[k], [cells[i] for i in chunks[k]]) for k in missing)
         made = results(tasks, len(missing), self.name, jobs, progress, scheduler)
@@ -286,12 +287,14 @@ def _chunk_path(folder: Path, chunk: np.ndarray) -> Path:
     return folder / f"{chunk[0]:06d}.json"
 
 
-def _read_chunk(path: Path) -> dict[str, Any] | None:
+def _read_chunk(folder: Path, chunk: np.ndarray) -> dict[str, Any] | None:
+    """What was kept of these cells, and of no more or fewer of them."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        found = json.loads(_chunk_path(folder, chunk).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return found if isinstance(found, dict) and {"rows", "inputs"} <= found.keys() else None
+    whole = isinstance(found, dict) and {"rows", "inputs"} <= found.keys()
+    return found if whole and len(found["rows"]) == len(chunk) else None
 
 
 def _flat(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
