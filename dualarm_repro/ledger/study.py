@@ -152,7 +152,7 @@ class Study:
         cells = self.cells()
         key = self.code["digest"][:16]
         folder = (scratch or Path("_build") / "studies") / f"{self.name}-{key}"
-        chunks = np.array_split(np.arange(len(cells)), min(_CHUNKS, len(cells)))
+        chunks = parts(len(cells))
         kept = {k: _read_chunk(folder, chunk) for k, chunk in enumerate(chunks)}
         missing = [k for k, rows in kept.items() if rows is None]
         tasks = ((self._chunk, chunks[k], [cells[i] for i in chunks[k]]) for k in missing)
@@ -271,6 +271,11 @@ class Study:
         return json.loads(to_json(rows)), sorted(inputs)
 
 
+def parts(count: int) -> list[np.ndarray]:
+    """Numbers of the cells that a worker gets at a time, of so many in all."""
+    return np.array_split(np.arange(count), min(_CHUNKS, count))
+
+
 def _whole(meta: Mapping[str, Any]) -> bool:
     """Whether a record of a study has what its readers take from it, in the form they expect."""
     code, cells = meta.get("code"), meta.get("cells")
@@ -293,8 +298,10 @@ def _read_chunk(folder: Path, chunk: np.ndarray) -> dict[str, Any] | None:
         found = json.loads(_chunk_path(folder, chunk).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    whole = isinstance(found, dict) and {"rows", "inputs"} <= found.keys()
-    return found if whole and len(found["rows"]) == len(chunk) else None
+    if not isinstance(found, dict) or not {"rows", "inputs"} <= found.keys():
+        return None
+    rows = found["rows"]
+    return found if isinstance(rows, list) and len(rows) == len(chunk) else None
 
 
 def _flat(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -101,7 +101,7 @@ def test_resumes(toy, tmp_path):
 def test_a_damaged_chunk_is_computed_again(toy, tmp_path):
     expected = toy().run(scratch=tmp_path)
     folder = tmp_path / f"toy_sweep-{toy().code['digest'][:16]}"
-    for text in ("", "[]", "{"):
+    for text in ("", "[]", "{", '{"rows": [], "inputs": []}', '{"rows": 1, "inputs": []}'):
         (folder / "000000.json").write_text(text)
         assert toy().run(scratch=tmp_path).equals(expected)
 
