@@ -79,10 +79,9 @@ def waited(name: str, workers: int, costs: Sequence[float]) -> dict[str, object]
     """Wall and CPU seconds of a study by so many workers that have started and loaded its code, and
     the seconds until they had started."""
     study = load().studies[name]
-    order, called = drawn_parts(study), time()
-    with TemporaryDirectory() as folder:
-        warm = [(_warmed, study, (order[0], folder, workers))] * workers
-        started = max(results(warm, workers, name, workers)) - called
+    order = drawn_parts(study)
+    # A worker collects garbage once after its first task, which is part of its start: two tasks.
+    started, _ = (warmed(study, order[0], workers) for _ in range(2))
     sample = handed_out(order, costs)
     tasks = ((_computed, study, part) for part in sample)
     begun, used = perf_counter(), process_time()
@@ -96,6 +95,14 @@ def waited(name: str, workers: int, costs: Sequence[float]) -> dict[str, object]
         "seconds": wall, "quartiles": [wall, wall],  # once, since it would be remembered
         "cpu_seconds": scale * cpu, "start_seconds": started,
     }  # fmt: skip
+
+
+def warmed(study: Study, part: Part, workers: int) -> float:
+    """Seconds until each worker has begun this part, which it forgets again."""
+    called = time()
+    with TemporaryDirectory() as folder:
+        tasks = [(_warmed, study, (part, folder, workers))] * workers
+        return max(results(tasks, workers, study.name, workers)) - called
 
 
 def handed_out(order: Sequence[Part], costs: Sequence[float]) -> list[Part]:
