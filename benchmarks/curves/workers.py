@@ -19,7 +19,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter, process_time, sleep, time
@@ -139,7 +139,7 @@ def _warmed(study: Study, shared: tuple[Part, str, int]) -> float:
     return begun
 
 
-def _in_a_process(*asked: object) -> object:
+def _in_a_process(*asked: object) -> Any:
     command = [sys.executable, __file__, *map(json.dumps, asked)]
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     made = subprocess.run(
@@ -152,4 +152,5 @@ def _in_a_process(*asked: object) -> object:
 
 if __name__ == "__main__":
     call, *arguments = map(json.loads, sys.argv[1:])
-    print(json.dumps({"sampled": sampled, "waited": waited}[call](*arguments)))
+    calls: dict[str, Callable[..., object]] = {"sampled": sampled, "waited": waited}
+    print(json.dumps(calls[call](*arguments)))
