@@ -34,7 +34,7 @@ from dualarm_repro.tracking import forget
 
 ROOT = Path(__file__).resolve().parents[2]
 TITLE, X = "a stored study", "worker processes"
-SECONDS, LONGEST = 4.0, 30.0  # that the parts of a sample take one worker, and at most
+SECONDS, LONGEST = 4.0, 60.0  # that the parts of a sample take one worker, and at most
 EVEN = 8  # times the dearest part: what is less cannot be shared evenly
 SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
 MEMORY = False  # of the workers is not seen here
@@ -82,7 +82,7 @@ def waited(name: str, workers: int, costs: Sequence[float]) -> dict[str, object]
     order = drawn_parts(study)
     # A worker collects garbage once after its first task, which is part of its start: two tasks.
     started, _ = (warmed(study, order[0], workers) for _ in range(2))
-    sample = handed_out(order, costs)
+    sample = handed_out(study, order, costs)
     tasks = ((_computed, study, part) for part in sample)
     begun, used = perf_counter(), process_time()
     spent = list(results(tasks, len(sample), name, workers))
@@ -105,10 +105,11 @@ def warmed(study: Study, part: Part, workers: int) -> float:
         return max(results(tasks, workers, study.name, workers)) - called
 
 
-def handed_out(order: Sequence[Part], costs: Sequence[float]) -> list[Part]:
+def handed_out(study: Study, order: Sequence[Part], costs: Sequence[float]) -> list[Part]:
     """The parts of a sample in the order in which workers get them."""
     if len(costs) == len(order):
-        return sorted(order, key=lambda part: part[0][0])
+        every = sorted(order, key=lambda part: part[0][0])
+        return [every[k] for k in study.handed_out(parts(len(study.cells())))]
     return [order[k] for k in np.argsort(costs)[::-1].tolist()]
 
 

@@ -8,7 +8,7 @@ are stored the closure of what it depends on and a hash of the table itself.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
@@ -73,6 +73,9 @@ class Study:
         Packages of others that some columns are computed with, with the prefix of those columns.
     also
         Modules that it depends on beside the closure of ``compute`` and ``cells``.
+    dearest
+        Numbers of cells that workers get first, where a few take so long that one worker would be
+        left with the last of them.
     """
 
     name: str
@@ -88,6 +91,7 @@ class Study:
     certificate: Callable[[Mapping[str, Any], Mapping[str, Any]], Mapping[str, Any]] | None = None
     peers: Mapping[str, str] = field(default_factory=dict)
     also: tuple[str, ...] = ()
+    dearest: tuple[int, ...] = ()
     registry: Registry | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -154,7 +158,7 @@ class Study:
         folder = (scratch or Path("_build") / "studies") / f"{self.name}-{key}"
         chunks = parts(len(cells))
         kept = {k: _read_chunk(folder, chunk) for k, chunk in enumerate(chunks)}
-        missing = [k for k, rows in kept.items() if rows is None]
+        missing = [k for k in self.handed_out(chunks) if kept[k] is None]
         tasks = ((self._chunk, chunks[k], [cells[i] for i in chunks[k]]) for k in missing)
         made = results(tasks, len(missing), self.name, jobs, progress, scheduler)
         for k, (rows, inputs) in zip(missing, made, strict=True):
@@ -180,6 +184,14 @@ class Study:
         for chunk in chunks:  # another run of the same study may remove them too
             _chunk_path(folder, chunk).unlink(missing_ok=True)
         return table
+
+    def handed_out(self, chunks: Sequence[np.ndarray]) -> list[int]:
+        """Positions of these chunks in the order in which workers get them."""
+        rank = {cell: place for place, cell in enumerate(self.dearest)}
+        return sorted(
+            range(len(chunks)),
+            key=lambda k: min(rank.get(i, len(rank)) for i in chunks[k].tolist()),
+        )
 
     def _known(self) -> Registry:
         from .registry import REGISTRY

@@ -101,7 +101,12 @@ def study_of(monkeypatch):
             now[0] += seconds(k)
             computed.append(k)
 
-        study = SimpleNamespace(name="toy", cells=lambda: [{}] * count, cell=cell)
+        study = SimpleNamespace(
+            name="toy",
+            cells=lambda: [{}] * count,
+            cell=cell,
+            handed_out=lambda chunks: [*range(1, len(chunks)), 0],
+        )
         monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"toy": study}))
         monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
         monkeypatch.setattr(workers, "process_time", lambda: 3.0 * now[0])
@@ -139,7 +144,7 @@ def test_a_study_of_few_dear_cells_is_measured_whole_and_in_its_order(study_of):
     costs = workers.sampled("toy")
     computed.clear()
     assert workers.waited("toy", 1, costs)["seconds"] == 20.0
-    assert computed[2:] == [0, 1, 2, 3]
+    assert computed[2:] == [1, 2, 3, 0]
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():
