@@ -98,10 +98,22 @@ def test_resumes(toy, tmp_path):
     assert table.equals(toy().run(scratch=tmp_path))
 
 
+def test_the_dearest_cells_are_computed_first_and_their_rows_stay_in_place(toy, tmp_path):
+    calls = []
+
+    def compute(settings, rng):
+        calls.append(settings["k"])
+        return _compute(settings, rng)
+
+    table = toy(compute=compute, dearest=(30, 7)).run(scratch=tmp_path)
+    assert calls == [30, 7, *(k for k in range(CELLS) if k not in (30, 7))]
+    assert table.equals(toy().run(scratch=tmp_path))
+
+
 def test_a_damaged_chunk_is_computed_again(toy, tmp_path):
     expected = toy().run(scratch=tmp_path)
     folder = tmp_path / f"toy_sweep-{toy().code['digest'][:16]}"
-    for text in ("", "[]", "{"):
+    for text in ("", "[]", "{", '{"rows": [], "inputs": []}', '{"rows": 1, "inputs": []}'):
         (folder / "000000.json").write_text(text)
         assert toy().run(scratch=tmp_path).equals(expected)
 
