@@ -14,7 +14,7 @@ from typing import Annotated, Protocol
 import numpy as np
 from pydantic import Field
 
-from ..arguments import FILLED, LATER, Shape, checked
+from ..arguments import FILLED, LATER, Number, Shape, checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -89,7 +89,7 @@ class PathProblem:
     start: Annotated[np.ndarray, LATER]
     goal: Annotated[np.ndarray, LATER]
     settings: PlannerSettings = field(default_factory=PlannerSettings)
-    evaluations: int = 0
+    evaluations: Number = 0
 
     def __post_init__(self) -> None:
         self.start = self.scene.configurations(self.start)

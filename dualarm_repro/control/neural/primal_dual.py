@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import checked
+from ...arguments import Count, checked
 from ...errors import InputError
 from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
@@ -148,7 +148,7 @@ def simulate_primal_dual(
     q0: ArrayLike,
     settings: ControllerSettings,
     *,
-    iterations: int = 100,
+    iterations: Count = 100,
     dt: float = 1e-3,
     readings: Readings | None = None,
     disturbance: Disturbance = UNDISTURBED,
@@ -164,8 +164,6 @@ def simulate_primal_dual(
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, 1)
     if settings.form is not RowForm.PAIR_NORMAL:
         raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
-    if iterations < 1:
-        raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
     arguments = system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt
     readings = readings_for(system, readings)
     require_states("simulate_primal_dual", system, disturbance)

@@ -85,6 +85,12 @@ def test_states_of_another_network_are_refused(crossing, state, line):
             simulate_primal_dual(*given, **state)
 
 
+@pytest.mark.parametrize("iterations", [0, -1, 10**9])
+def test_the_primal_dual_network_makes_a_bounded_number_of_iterations(crossing, iterations):
+    with pytest.raises(InputError, match=rf"iterations = {iterations}: .*at least 1, at most \d+"):
+        simulate_primal_dual(*crossing.parts, ControllerSettings(), iterations=iterations)
+
+
 def test_single_precision_stays_near_double(crossing):
     runs = [
         go(*crossing.parts, ControllerSettings(), NetworkSettings(), dt=2e-2)
