@@ -48,7 +48,7 @@ SIZE = OUT + 6 * BRANCHES * _1
 _ROWS = (0, 4, 8, 12, 20, 28, 36)
 
 
-@kernel
+@inlined
 def prepared(reference, lower, upper):
     """The buffer with reference and limits in place."""
     w = np.zeros(SIZE)
@@ -58,7 +58,7 @@ def prepared(reference, lower, upper):
     return w
 
 
-@kernel
+@inlined
 def solve(geometry, reference, w):
     """All branches of the poses in the buffer into its last rows, NaN where there is none."""
     ca, cb = geometry.twists[0][1], geometry.twists[1][1]
