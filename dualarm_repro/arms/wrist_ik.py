@@ -15,10 +15,16 @@ import numpy as np
 
 from ..kernel import kernel
 from .codegen.simd import STORES
-from .wrist_lanes import BRANCHES, LANES, OUT, POSE, prepared, solve
+from .trigonometry import arctan2
+from .wrist_lanes import (
+    ANGLES, ARMS, COSINES, FOUND, LANES, LOWER, NEAR, POSE, SINES, SIZE, SQUARE, UPPER,
+    angles, branches, directions, representative,
+)
+
+BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
 
 SAME = 1e-6  # half the difference [rad] below which the angles of two branches are one
-store_4, store_2 = STORES[4], STORES[2]
+store_8, store_4 = STORES[8], STORES[4]
 
 
 @kernel
@@ -43,25 +49,47 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
     """
     out = np.empty((len(poses), BRANCHES, 6))
     flat = out.reshape(-1)
-    w = prepared(reference, lower, upper)
-    for start in range(0, len(poses), LANES):
-        rows = min(LANES, len(poses) - start)
+    w = np.zeros(SIZE)
+    for k in range(9):  # q1 ... q6, and q4, q5, q6 of the other wrist
+        j = k if k < 6 else k - 3
+        for i in range(k * LANES, (k + 1) * LANES):
+            w[NEAR + i], w[LOWER + i], w[UPPER + i] = reference[j], lower[j], upper[j]
+    s2, c2, turn = math.sin(reference[1]), math.cos(reference[1]), geometry.turn
+    _, rise, run = geometry.upper_arm
+    undetermined = (
+        (math.sin(reference[0]), math.cos(reference[0])),
+        (s2, c2),
+        (s2 * run + c2 * rise, c2 * run - s2 * rise),
+        (math.sin(reference[3]), math.cos(reference[3])),
+    )
+    twice = math.atan2(2.0 * turn[0] * turn[1], turn[1] * turn[1] - turn[0] * turn[0])
+    perpendicular = abs(geometry.twists[0][1]) < SQUARE and abs(geometry.twists[1][1]) < SQUARE
+    arctangents = (6 if perpendicular else 8) * LANES
+    for start in range(0, ARMS * len(poses), LANES):
+        for k in range(LANES // ARMS):
+            pose = poses[min(start // ARMS + k, len(poses) - 1)]
+            for e in range(12):
+                entry = pose[e // 4, e % 4]
+                for i in range(ARMS):
+                    w[POSE + e * LANES + k * ARMS + i] = entry
         for i in range(LANES):
-            k = start + min(i, rows - 1)
-            for r in range(3):
-                for c in range(4):
-                    w[POSE + (4 * r + c) * LANES + i] = poses[k, r, c]
-        solve(geometry, reference, w)
-        for b in range(BRANCHES):
-            shoulder, elbow, wrist = b >> 2, b >> 1 & 1, b & 1
-            at, to = OUT + (24 * wrist + 2 * elbow + shoulder) * LANES, (start * BRANCHES + b) * 6
-            if rows == LANES:
-                store_4(w, at, 4 * LANES, flat, to, 48)
-                store_2(w, at + 16 * LANES, 4 * LANES, flat, to + 4, 48)
-            else:
-                for i in range(rows):
-                    for j in range(6):
-                        flat[to + 48 * i + j] = w[at + 4 * j * LANES + i]
+            directions(geometry, undetermined, w, i)
+        for i in range(arctangents):
+            w[SINES + i] = arctan2(w[SINES + i], w[COSINES + i])
+        for i in range(LANES):
+            angles(geometry.elbow_sign, twice, perpendicular, w, i)
+        for i in range(9 * LANES):
+            w[ANGLES + i] = representative(
+                w[ANGLES + i], w[NEAR + i], w[LOWER + i], w[UPPER + i]
+            )
+        for i in range(LANES):
+            branches(w, i)
+        if 12 * (start + LANES) <= flat.size:
+            store_8(w, FOUND, LANES, flat, 12 * start, 12)
+            store_4(w, FOUND + 8 * LANES, LANES, flat, 12 * start + 8, 12)
+        else:
+            for k in range(flat.size - 12 * start):
+                flat[12 * start + k] = w[FOUND + k % 12 * LANES + k // 12]
     return out
 
 
