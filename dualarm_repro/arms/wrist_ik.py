@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from ..kernel import kernel
-from .codegen.simd import STORES
+from .codegen.simd import STORES, WIDTH
 from .trigonometry import arctan2
 from .wrist_lanes import (
     ANGLES, ARMS, COSINES, FOUND, LANES, LOWER, NEAR, POSE, SINES, SIZE, SQUARE, UPPER,
@@ -85,8 +85,10 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
         for i in range(LANES):
             branches(w, i)
         if 12 * (start + LANES) <= flat.size:
-            store_8(w, FOUND, LANES, flat, 12 * start, 12)
-            store_4(w, FOUND + 8 * LANES, LANES, flat, 12 * start + 8, 12)
+            for i in range(0, LANES, WIDTH):
+                to = 12 * (start + i)
+                store_8(w, FOUND + i, LANES, flat, to, 12)
+                store_4(w, FOUND + 8 * LANES + i, LANES, flat, to + 8, 12)
         else:
             for k in range(flat.size - 12 * start):
                 flat[12 * start + k] = w[FOUND + k % 12 * LANES + k // 12]

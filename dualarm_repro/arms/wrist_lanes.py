@@ -19,7 +19,7 @@ BOUNDARY = 1e-12  # relative overshoot of a square that rounding is allowed
 ON_LIMIT = 1e-11  # overshoot of a joint limit [rad] that is clipped
 SQUARE = 1e-15  # cosine up to which two axes of the wrist count as perpendicular
 _TIE = 1e-9  # of a turn: half a turn away from the reference is taken on the upper side
-_TURN = 2.0 * math.pi
+_TURN, _TURNS = 2.0 * math.pi, 0.5 / math.pi
 
 POSE = 0  # 12: the first three rows of the pose
 _EXISTS, _LENGTH = 12 * LANES, 13 * LANES  # 1 or 0; square of the sine that q4 is found from
@@ -58,17 +58,14 @@ def directions(geometry, undetermined, w, i):
     w[_Y3 + i], w[_X3 + i] = s, c
     tool = _times(geometry.base, _times(R, geometry.flange[0]))
     normal = _times(geometry.base, _times(R, geometry.flange[1]))
-    undo = (  # Ry(-pitch) Rz(-q1)
-        (c * c1, c * s1, -s),
-        (-s1, c1, 0.0),
-        (s * c1, s * s1, c),
-    )
-    z6, x5 = _times(geometry.wrist, _times(undo, tool)), _times(geometry.wrist, _times(undo, normal))
+    z6 = _times(geometry.wrist, _turned_back(s1, c1, s, c, tool))
+    x5 = _times(geometry.wrist, _turned_back(s1, c1, s, c, normal))
     (sa, ca), (sb, cb) = geometry.twists
     square = z6[0] * z6[0] + z6[1] * z6[1] - ca * ca - cb * cb + 2.0 * ca * cb * z6[2]
     w[_EXISTS + i] = 1.0 if reached & (square > -BOUNDARY) else 0.0
-    sine = -math.sqrt(square if square > 0.0 else 0.0) / (sa * sb)
-    cosine = (ca * cb - z6[2]) / (sa * sb)
+    scale = 1.0 / (sa * sb)
+    sine = -math.sqrt(square if square > 0.0 else 0.0) * scale
+    cosine = (ca * cb - z6[2]) * scale
     w[_Y5 + i], w[_X5 + i] = _sum(sine, cosine, -geometry.turn[0], geometry.turn[1])
     y4, x4, y6, x6, length = _wrist(geometry.twists, undetermined[3], z6, x5, sine, cosine)
     w[_Y4 + i], w[_X4 + i], w[_Y6 + i], w[_X6 + i], w[_LENGTH + i] = y4, x4, y6, x6, length
@@ -152,10 +149,10 @@ def angles(elbow_sign, turn, perpendicular, w, i):
 def representative(angle, near, lower, upper):
     """Of the angles that differ by full turns the one nearest to the reference, then shifted by
     full turns into the limits; NaN if none fits."""
-    angle += _TURN * np.floor((near - angle) / _TURN + 0.5 + _TIE)
-    over = np.ceil((angle - (upper + ON_LIMIT)) / _TURN)
+    angle += _TURN * np.floor((near - angle) * _TURNS + 0.5 + _TIE)
+    over = np.ceil((angle - (upper + ON_LIMIT)) * _TURNS)
     angle -= _TURN * (over if over > 0.0 else 0.0)
-    under = np.ceil((lower - ON_LIMIT - angle) / _TURN)
+    under = np.ceil((lower - ON_LIMIT - angle) * _TURNS)
     angle += _TURN * (under if under > 0.0 else 0.0)
     inside = angle <= upper + ON_LIMIT
     angle = lower if angle < lower else angle
@@ -182,6 +179,13 @@ def branches(w, i):
 def _sum(s, c, sine, cosine):
     """Sine and cosine of the sum of two angles."""
     return s * cosine + c * sine, c * cosine - s * sine
+
+
+@inlined
+def _turned_back(s1, c1, s, c, v):
+    """Ry(-pitch) Rz(-q1) v."""
+    x, y = c1 * v[0] + s1 * v[1], c1 * v[1] - s1 * v[0]
+    return (c * x - s * v[2], y, s * x + c * v[2])
 
 
 @inlined
