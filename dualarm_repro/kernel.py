@@ -171,8 +171,9 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 def inlined(function: Callable[..., Any]) -> Any:
     """The same for a function that is part of a loop over lanes, which only becomes SIMD code
-    without a call in it."""
-    return _kept(function, njit(error_model="numpy", nogil=True, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function))
+    without a call in it. Python cannot call it, so nothing is compiled for that."""
+    options = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return _kept(function, njit(error_model="numpy", nogil=True, **options)(function))
 
 
 def _kept(function: Callable[..., Any], compiled: Any) -> Any:

@@ -3,28 +3,47 @@
 The wrist centre W = p - R d depends on q1, q2, q3 only: axis 1 turns the vertical plane of the
 arm, in which upper arm and forearm form a planar 2R chain; the rotation that is left then gives the
 three angles of the wrist (D. L. Pieper, The kinematics of manipulators under computer control,
-1968). Two signs at shoulder, elbow and wrist make the eight branches. Every angle is found as a
-pair of sine and cosine; the arctangents come last, in one loop.
+1968). Two signs at shoulder, elbow and wrist make the eight branches. The four arms of a pose are
+lanes of SIMD code (:mod:`.wrist_lanes`); every angle is found as a pair of sine and cosine, and of
+two wrists with perpendicular axes one gives the other.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numba.core import config
 
 from ..kernel import kernel
 from .codegen.simd import STORES, WIDTH
 from .trigonometry import arctan2
 from .wrist_lanes import (
-    ANGLES, ARMS, COSINES, FOUND, LANES, LOWER, NEAR, POSE, SINES, SIZE, SQUARE, UPPER,
-    angles, branches, directions, representative,
+    ANGLES,
+    ARMS,
+    COSINES,
+    FOUND,
+    LANES,
+    LOWER,
+    NEAR,
+    POSE,
+    SINES,
+    SIZE,
+    SQUARE,
+    UPPER,
+    angles,
+    branches,
+    directions,
+    representative,
 )
 
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
 
+_NUMBA: Any = config
 SAME = 1e-6  # half the difference [rad] below which the angles of two branches are one
-store_8, store_4 = STORES[8], STORES[4]
+_COMPILES = not _NUMBA.DISABLE_JIT
+_store_8, _store_4 = STORES[8], STORES[4]
 
 
 @kernel
@@ -65,7 +84,7 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
     twice = math.atan2(2.0 * turn[0] * turn[1], turn[1] * turn[1] - turn[0] * turn[0])
     perpendicular = abs(geometry.twists[0][1]) < SQUARE and abs(geometry.twists[1][1]) < SQUARE
     arctangents = (6 if perpendicular else 8) * LANES
-    for start in range(0, ARMS * len(poses), LANES):
+    for start in range(0, ARMS * len(poses), LANES):  # of a lane come twice six angles in a row
         for k in range(LANES // ARMS):
             pose = poses[min(start // ARMS + k, len(poses) - 1)]
             for e in range(12):
@@ -79,18 +98,16 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
         for i in range(LANES):
             angles(geometry.elbow_sign, twice, perpendicular, w, i)
         for i in range(9 * LANES):
-            w[ANGLES + i] = representative(
-                w[ANGLES + i], w[NEAR + i], w[LOWER + i], w[UPPER + i]
-            )
+            w[ANGLES + i] = representative(w[ANGLES + i], w[NEAR + i], w[LOWER + i], w[UPPER + i])
         for i in range(LANES):
             branches(w, i)
-        if 12 * (start + LANES) <= flat.size:
+        if _COMPILES and 12 * (start + LANES) <= flat.size:
             for i in range(0, LANES, WIDTH):
                 to = 12 * (start + i)
-                store_8(w, FOUND + i, LANES, flat, to, 12)
-                store_4(w, FOUND + 8 * LANES + i, LANES, flat, to + 8, 12)
+                _store_8(w, FOUND + i, LANES, flat, to, 12)
+                _store_4(w, FOUND + 8 * LANES + i, LANES, flat, to + 8, 12)
         else:
-            for k in range(flat.size - 12 * start):
+            for k in range(min(12 * LANES, flat.size - 12 * start)):
                 flat[12 * start + k] = w[FOUND + k % 12 * LANES + k // 12]
     return out
 
@@ -107,5 +124,3 @@ def distinct(branches):
                 apart = max(apart, abs(math.sin(0.5 * (branches[b, j] - branches[other, j]))))
             keep[b] &= not (keep[other] and apart < SAME)
     return keep
-
-

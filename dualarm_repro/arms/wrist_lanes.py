@@ -138,7 +138,11 @@ def angles(elbow_sign, turn, perpendicular, w, i):
     """
     q4, q5, q6 = w[_Y4 + i], w[_Y5 + i], w[_Y6 + i]
     half = math.pi if w[_LENGTH + i] > SINGULAR * SINGULAR else 0.0
-    w[_Q1 + i], w[_Q2 + i], w[_Q3 + i] = w[_Y1 + i], w[_Y2 + i], elbow_sign * (w[_Y3 + i] - w[_Y2 + i])
+    w[_Q1 + i], w[_Q2 + i], w[_Q3 + i] = (
+        w[_Y1 + i],
+        w[_Y2 + i],
+        elbow_sign * (w[_Y3 + i] - w[_Y2 + i]),
+    )
     w[_Q4 + i], w[_Q5 + i], w[_Q6 + i] = q4, q5, q6
     w[_P4 + i] = q4 + (-half if q4 > 0.0 else half) if perpendicular else w[_Z4 + i]
     w[_P5 + i] = -q5 - turn
