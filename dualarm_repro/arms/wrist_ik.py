@@ -39,9 +39,8 @@ from .wrist_lanes import (
 )
 
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
-
-_NUMBA: Any = config
 SAME = 1e-6  # half the difference [rad] below which the angles of two branches are one
+_NUMBA: Any = config
 _COMPILES = not _NUMBA.DISABLE_JIT
 _store_8, _store_4 = STORES[8], STORES[4]
 

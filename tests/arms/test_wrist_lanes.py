@@ -106,7 +106,7 @@ TURN, INF = 2 * np.pi, np.inf
         (0.5, -20.0, -INF, INF, 0.5 - 3 * TURN),
         (np.pi, 0.0, -INF, INF, np.pi),
         (-np.pi, 0.0, -INF, INF, np.pi),  # half a turn away: the upper side
-        (-np.pi + 1e-12, 0.0, -INF, INF, np.pi),
+        (-np.pi + 1e-12, 0.0, -INF, INF, np.pi + 1e-12),
         (0.5, 0.0, 1.0, 8.0, 0.5 + TURN),
         (0.5, 0.0, -20.0, -10.0, 0.5 - 2 * TURN),
         (0.5, 0.0, 0.6, 0.7, np.nan),
