@@ -172,7 +172,8 @@ def kernel(function: Callable[..., Any]) -> Any:
 def inlined(function: Callable[..., Any]) -> Any:
     """The same for a function that is part of a loop over lanes, which only becomes SIMD code
     without a call in it. Python cannot call it, so nothing is compiled for that."""
-    options = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    options: dict[str, Any] = {"forceinline": True}
+    options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     return _kept(function, njit(error_model="numpy", nogil=True, **options)(function))
 
 
