@@ -158,7 +158,8 @@ from dualarm_repro import load_arm
 arm = load_arm("irb120")
 q = np.linspace(-1, 1, 12).reshape(2, 6)
 print(repr([*arm.fk(q).ravel(), *arm.fk(q[0]).ravel(), *arm.jacobian(q).ravel(),
-            *arm.manipulability(q), arm.manipulability(q[1]), *arm.positions(q).ravel()]))
+            *arm.manipulability(q), arm.manipulability(q[1]), *arm.positions(q).ravel(),
+            *np.nan_to_num(arm.ik_branches(arm.fk(q[[0, 1, 1]]))).ravel()]))
 """
 
 
