@@ -12,6 +12,8 @@ import prerun
 import pytest
 from jupyter_cache import get_cache
 
+from dualarm_repro.kernel import compiled_folder
+
 NOTEBOOK = "---\nfile_format: mystnb\n---\n\n# Page\n\n```{{code-cell}} ipython3\n{code}\n```\n"
 TOC = """format: jb-book
 root: intro
@@ -45,6 +47,7 @@ def test_pages_in_reading_order(book):
 def test_records_and_pictures_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
     broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
     monkeypatch.setitem(registry.checkers, "xue.eq03", broken)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(compiled_folder()))  # of machine code, not of records
     monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
     prerun.warm(["xue.eq02", "xue.eq03", "xue.tab01"])
     for kind in ("records", "pages"):
