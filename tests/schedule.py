@@ -40,7 +40,7 @@ COSTS = {
 def group_of(nodeid: str) -> str:
     """The tests that run on one worker, one after another."""
     file, _, test = nodeid.partition("::")
-    if file in BY_DOCUMENT and (named := re.search(r"\[(?:\d+-)?([a-z]+)[\].]", test)):
+    if file in BY_DOCUMENT and (named := re.search(r"\[(?:\d+-)?([a-z]+)[\].-]", test)):
         return f"items of {named[1]}"
     if file.startswith(REPLAYED):
         return REPLAYED
