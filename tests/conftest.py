@@ -41,6 +41,7 @@ def pytest_collection_finish():
     """Thousands of tests are no garbage, and looking through them again and again is no test."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(100_000, 20, 50)
 
 
 @pytest.hookimpl(optionalhook=True)

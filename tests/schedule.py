@@ -27,9 +27,11 @@ COSTS = {
     "items of": 35,
     "tests/replay": 35,
     "tests/papers/patent/test_room.py": 30,
-    "tests/papers/pan/test_room.py": 25,
     "tests/cli": 25,
     "tests/book/test_browser.py": 20,
+    "tests/baselines/test_planners.py": 30,
+    "tests/faults": 25,
+    "tests/arms/codegen": 20,
     "tests/papers": 15,
     "tests/book": 15,
     "tests/arena": 10,
@@ -40,7 +42,7 @@ COSTS = {
 def group_of(nodeid: str) -> str:
     """The tests that run on one worker, one after another."""
     file, _, test = nodeid.partition("::")
-    if file in BY_DOCUMENT and (named := re.search(r"\[(?:\d+-)?([a-z]+)[\].]", test)):
+    if file in BY_DOCUMENT and (named := re.search(r"\[(?:\d+-)?([a-z]+)[\].-]", test)):
         return f"items of {named[1]}"
     if file.startswith(REPLAYED):
         return REPLAYED

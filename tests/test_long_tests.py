@@ -38,7 +38,7 @@ def test_a_parameter_is_long_where_another_is_short():
         ("tests/arms/test_arm.py::test_a[1]", "tests/arms/test_arm.py"),
         ("tests/papers/test_trust.py::test_a[xue.eq01-printed]", "items of xue"),
         ("tests/papers/test_statistics.py::test_a[2-qiu.claim_d]", "items of qiu"),
-        ("tests/papers/test_ledger_of_papers.py::test_nothing_drifted[pan]", "items of pan"),
+        ("tests/papers/test_ledger_of_papers.py::test_nothing_drifted[pan-soon]", "items of pan"),
         ("tests/papers/test_ledger_of_papers.py::test_a", "tests/papers/test_ledger_of_papers.py"),
         ("tests/replay/test_replay_pan.py::test_seam", "tests/replay/"),
     ],

@@ -1,11 +1,18 @@
 """Pre-execution: which pages are notebooks, what is cached, and that every failure is named."""
 
+import os
+import signal
+import subprocess
+import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
 import prerun
 import pytest
 from jupyter_cache import get_cache
+
+from dualarm_repro.kernel import compiled_folder
 
 NOTEBOOK = "---\nfile_format: mystnb\n---\n\n# Page\n\n```{{code-cell}} ipython3\n{code}\n```\n"
 TOC = """format: jb-book
@@ -40,10 +47,66 @@ def test_pages_in_reading_order(book):
 def test_records_and_pictures_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
     broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
     monkeypatch.setitem(registry.checkers, "xue.eq03", broken)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(compiled_folder()))  # of machine code, not of records
     monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
     prerun.warm(["xue.eq02", "xue.eq03", "xue.tab01"])
     for kind in ("records", "pages"):
         assert {path.stem for path in (tmp_path / kind).iterdir()} == {"xue.eq02", "xue.tab01"}
+
+
+def test_what_begins_at_once_is_of_several_documents():
+    pages = {"a/short": ["a.1"], "a/long": ["a.2", "a.3"], "b/long": ["b.1"], "a/middle": ["a.4"]}
+    costs = {"a.1": 1.0, "a.2": 5.0, "a.3": 4.0, "b.1": 2.0, "a.4": 8.0}
+    assert prerun.in_turn(pages, costs) == [["a.2", "a.3"], ["b.1"], ["a.4"], ["a.1"]]
+    assert prerun.in_turn(pages, {})[1] == ["b.1"], "whatever is known of costs"
+
+
+INTERRUPTED = """
+import pathlib, signal, sys, time
+sys.path.insert(0, {tools!r})
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever is inherited
+import prerun
+
+def compute(drawn, item_ids):
+    pathlib.Path({begun!r}).touch()
+    time.sleep(60)
+
+prerun._compute = compute
+sys.argv = ["prerun.py", "--records"]
+print("begun", flush=True)
+sys.exit(prerun.process())
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_an_interruption_ends_all_without_a_word(tmp_path):
+    begun = tmp_path / "begun"
+    program = INTERRUPTED.format(tools=str(Path(prerun.__file__).parent), begun=str(begun))
+    with subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        assert process.stdout.readline() == "begun\n"
+        while not begun.exists() and process.poll() is None:
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGINT)
+        words = process.communicate(timeout=30)
+    assert (process.returncode, *words) == (130, "", "")
+    assert _ended(process.pid, within=5.0)
+
+
+def _ended(group, within):
+    """Whether no process of a group is left after this time [s]."""
+    for _ in range(int(within / 0.05)):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.05)
+    return False
 
 
 def test_the_key_of_a_page_follows_what_it_shows(tmp_path, monkeypatch):

@@ -179,11 +179,12 @@ def judged_again(path, out, solids, summary):
         assert replay.touching() == set()
 
 
-def test_three_thousand_obstacles(dualarm, tmp_path):
+@pytest.mark.parametrize("count", [500, pytest.param(3000, marks=pytest.mark.long)])
+def test_many_obstacles(dualarm, tmp_path, count):
     """Balls all around two arms; the report is that of those near by, and of all."""
     rng = np.random.default_rng(11)
     at = rng.uniform([-4, -4, 0.1], [4, 4, 3], (9000, 3))
-    at = at[np.linalg.norm(at[:, :2], axis=1) > 1.2][:3000].round(3)
+    at = at[np.linalg.norm(at[:, :2], axis=1) > 1.2][:count].round(3)
     balls = "".join(
         f"  ball{k}: {{kind: sphere, center: {one.tolist()}, radius: 0.04}}\n"
         for k, one in enumerate(at)
@@ -193,7 +194,7 @@ def test_three_thousand_obstacles(dualarm, tmp_path):
     code, _, err = dualarm("plan", path, "--method", "mutual-avoidance-qp", "--out", out)
     assert (code, err) == (0, "")
     summary = json.loads((out / "cell.json").read_text())
-    assert len(at) == 3000
+    assert len(at) == count
     judged_again(path, out, [], summary)
 
 
