@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from numba import njit
+from numba import njit, types
 from numba.core import config
 
 from .interruption import uninterrupted
@@ -39,8 +39,11 @@ def _compiled(function: Callable[..., Any], **options: Any) -> Any:
     template, overload = outer.get_call_template, outer.get_overload
 
     def template_for_kernels(arguments: Any, keywords: Any) -> Any:
-        _, types = outer._compiler.fold_argument_types(arguments, keywords)
-        known = tuple(types) in outer.overloads
+        # A constant is no type of its own, for which everything were compiled once more.
+        arguments = tuple(map(types.unliteral, arguments))
+        keywords = {name: types.unliteral(kind) for name, kind in keywords.items()}
+        _, kinds = outer._compiler.fold_argument_types(arguments, keywords)
+        known = tuple(kinds) in outer.overloads
         return (template if known else inner.get_call_template)(arguments, keywords)
 
     def overload_for_kernels(signature: Any) -> Any:
