@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from dualarm_repro.cli import ahead
+from dualarm_repro.planning.field.gift_wrapping import wrap_hulls
+from dualarm_repro.view.scenes.raster import fill_triangles, stroke
 
 #: A first plan in a process that tells which functions it compiled itself.
 FIRST_PLAN = """
@@ -72,8 +74,10 @@ def test_a_system_without_further_processes_only_costs_time(monkeypatch):
     monkeypatch.setattr(subprocess, "Popen", popen)
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     monkeypatch.setattr("dualarm_repro.machine_code.is_kept", lambda _: False)
+    done = []
     with ahead.compiling_ahead():
-        pass
+        done.append("the plan")
+    assert done == ["the plan"]
 
 
 def test_the_process_finds_the_package_and_says_nothing(monkeypatch, begun):
@@ -86,11 +90,13 @@ def test_the_process_finds_the_package_and_says_nothing(monkeypatch, begun):
     assert set(one.how["env"]["PYTHONPATH"].split(os.pathsep)) == set(filter(None, sys.path))
 
 
-def test_what_is_rehearsed_runs():
+def test_what_is_rehearsed_is_compiled():
     ahead.rehearse()
+    for one in (wrap_hulls, fill_triangles, stroke):
+        assert one.signatures
 
 
-@pytest.mark.long(short="test_what_is_rehearsed_runs")
+@pytest.mark.long(short="test_what_is_rehearsed_is_compiled")
 def test_after_the_rehearsal_the_plan_compiles_none_of_it(tmp_path):
     environment = {**os.environ, "DUALARM_CACHE": str(tmp_path)}
     environment.pop("NUMBA_CACHE_DIR", None)
