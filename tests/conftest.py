@@ -11,7 +11,7 @@ import matplotlib as mpl
 import pytest
 from hypothesis import settings
 from long_tests import COLLECTED
-from schedule import DearestFirst, cost_of, group_of
+from schedule import DearestFirst, order_of
 
 mpl.use("agg")
 settings.register_profile("reproducible", deadline=None, derandomize=True, print_blob=True)
@@ -34,7 +34,7 @@ def pytest_collection_modifyitems(config, items):
         for item in items
         for mark in [item.get_closest_marker("long")]
     ]
-    items.sort(key=lambda item: -cost_of(group_of(item.nodeid)))
+    items.sort(key=lambda item: order_of(item.nodeid))
 
 
 def pytest_collection_finish():
