@@ -59,8 +59,8 @@ def cost_of(group: str) -> int:
 
 
 def order_of(nodeid: str) -> tuple[int, bool]:
-    """What is sorted by: the dearest group first, in it what looks at how an item is computed, which
-    is computed once."""
+    """What is sorted by: the dearest group first; in it, while no item has been computed, what
+    looks at how each is."""
     return -cost_of(group_of(nodeid)), nodeid.partition("::")[0] not in BY_DOCUMENT
 
 

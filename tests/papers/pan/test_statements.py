@@ -65,9 +65,7 @@ def test_every_reading_is_searched_in_the_words_of_the_ledger(registry):
 def test_position_b_asks_for_faster_joints(registry):
     calm = evaluated("pan.claim_sudden_turns").result.obtained
     assert calm["ratio"] > 1.0
-    assert (
-        calm["position"] == evaluated("pan.claim_unstable_b").result.obtained["position"]
-    )
+    assert calm["position"] == evaluated("pan.claim_unstable_b").result.obtained["position"]
 
 
 def test_a_start_that_is_lost_was_within_reach(registry):
