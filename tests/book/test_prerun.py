@@ -12,7 +12,7 @@ import prerun
 import pytest
 from jupyter_cache import get_cache
 
-from dualarm_repro.kernel import compiled_folder
+from dualarm_repro.machine_code import compiled_folder
 
 NOTEBOOK = "---\nfile_format: mystnb\n---\n\n# Page\n\n```{{code-cell}} ipython3\n{code}\n```\n"
 TOC = """format: jb-book
