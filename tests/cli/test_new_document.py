@@ -65,12 +65,19 @@ def dualarm(clone, *arguments, cwd=None):
 
 
 @pytest.fixture(scope="module")
-def clone(tmp_path_factory):
-    """A clone with a fifth document, written from a folder inside of it."""
+def extended(tmp_path_factory):
+    """A clone with a fifth document, written from a folder inside of it, and what that changed."""
     folder = copied(tmp_path_factory.mktemp("clone"))
+    before = files(folder)
     made = dualarm(folder, "new-document", "smith", "--title", TITLE, cwd=folder / "book")
     assert (made.returncode, made.stderr) == (0, "")
-    return folder
+    after = files(folder)
+    return folder, {p.relative_to(folder): after[p] for p in after if after[p] != before.get(p)}
+
+
+@pytest.fixture(scope="module")
+def clone(extended):
+    return extended[0]
 
 
 @pytest.fixture(scope="module")
@@ -168,25 +175,14 @@ def test_without_a_clone_around(request, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.fixture(scope="module")
-def written(clone):
-    """What the document added to its clone or changed there, under the relative paths."""
-    found = {path.relative_to(clone): content for path, content in files(clone).items()}
-    return {
-        name: content
-        for name, content in found.items()
-        if not (ROOT / name).is_file() or (ROOT / name).read_bytes() != content
-    }
-
-
 @pytest.mark.parametrize("fails_at", [1, 8])
 def test_a_file_that_cannot_be_moved_leaves_all_as_before(
-    untouched, written, monkeypatch, fails_at
+    untouched, extended, monkeypatch, fails_at
 ):
     """What is moved is what was computed for the clone above."""
 
     def computed_before(staged, item_id):
-        for name, content in written.items():
+        for name, content in extended[1].items():
             (staged / name).parent.mkdir(parents=True, exist_ok=True)
             (staged / name).write_bytes(content)
 
