@@ -32,7 +32,7 @@ COSTS = {
     "tests/cli": 25,
     "tests/book/test_browser.py": 20,
     "tests/baselines/test_planners.py": 30,
-    "tests/faults": 25,
+    "tests/faults": 15,
     "tests/arms/codegen": 20,
     "tests/papers": 15,
     "tests/book": 15,

@@ -1,6 +1,7 @@
 """Pre-execution: which pages are notebooks, what is cached, and that every failure is named."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import prerun
 import pytest
 from jupyter_cache import get_cache
 
+from dualarm_repro.cache_folder import cache_folder
 from dualarm_repro.machine_code import compiled_folder
 
 NOTEBOOK = "---\nfile_format: mystnb\n---\n\n# Page\n\n```{{code-cell}} ipython3\n{code}\n```\n"
@@ -48,6 +50,9 @@ def test_records_and_pictures_of_all_checkers_are_warmed(registry, tmp_path, mon
     broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
     monkeypatch.setitem(registry.checkers, "xue.eq03", broken)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(compiled_folder()))  # of machine code, not of records
+    known = cache_folder() / "sources.json"  # else each worker parses every module
+    if known.is_file():
+        shutil.copy2(known, tmp_path)
     monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
     prerun.warm(["xue.eq04", "xue.eq03", "xue.eq09"])
     for kind in ("records", "pages"):
