@@ -109,9 +109,9 @@ def warm(item_ids: Iterable[str] | None = None, drawn: bool = True) -> None:
     gc.freeze()
     gc.set_threshold(*THRESHOLDS)  # the workers inherit it: a compiler makes little garbage
     with ProcessPoolExecutor() as pool:
-        with deaf():  # whoever is interrupted ends the workers, which tell nothing of it
-            done = pool.map(partial(_compute, drawn), in_turn(pages, read_costs()))
         try:
+            with deaf():  # whoever is interrupted ends the workers, which tell nothing of it
+                done = pool.map(partial(_compute, drawn), in_turn(pages, read_costs()))
             list(done)
         except KeyboardInterrupt:
             for worker in active_children():

@@ -155,13 +155,32 @@ def coal_triangles(faces):
 LONG = ("two ur5", "two ur10", "two panda", "xarm7 with z1")
 
 
+@pytest.fixture(scope="module")
+def known():
+    """What was planned of the scenes above."""
+    return {}
+
+
+@pytest.fixture
+def planned(dualarm, tmp_path, known):
+    """A scene above planned once: its file, its meshes, its plan."""
+
+    def plan(name):
+        if name not in known:
+            method, text = SCENES[name]
+            path, solids = written(tmp_path, text)
+            out = tmp_path / "out"
+            code, _, err = dualarm("plan", path, "--method", method, "--out", out)
+            assert (code, err) == (0, "")
+            known[name] = path, solids, out
+        return known[name]
+
+    return plan
+
+
 @pytest.mark.parametrize("name", long_where(LONG.__contains__, SCENES))
-def test_plan_is_free_by_full_geometry(dualarm, tmp_path, name):
-    method, text = SCENES[name]
-    path, solids = written(tmp_path, text)
-    out = tmp_path / "out"
-    code, _, err = dualarm("plan", path, "--method", method, "--out", out)
-    assert (code, err) == (0, "")
+def test_plan_is_free_by_full_geometry(planned, name):
+    path, solids, out = planned(name)
     summary = json.loads((out / "cell.json").read_text())
     judged_again(path, out, solids, summary)
     for name, one in summary["arms"].items():
@@ -232,12 +251,9 @@ def test_continuous_joints_go_the_short_way(dualarm, tmp_path):
     assert dualarm("check", path, out / "cell_left.csv", out / "cell_right.csv")[0] == 0
 
 
-def test_a_continuous_joint_goes_the_short_way(dualarm, tmp_path):
+def test_a_continuous_joint_goes_the_short_way(planned):
     """The elbow of the lift, from 3.0 to -3.0 rad."""
-    method, text = SCENES["a prismatic lift"]
-    path, _ = written(tmp_path, text)
-    out = tmp_path / "out"
-    assert dualarm("plan", path, "--method", method, "--out", out)[0] == 0
+    _, _, out = planned("a prismatic lift")
     elbow = pd.read_csv(out / "cell_left.csv")["q3"].to_numpy()
     # a search ends within its own tolerance of the goal
     assert elbow[-1] - elbow[0] == pytest.approx(2 * np.pi - 6.0, abs=1e-2)
