@@ -36,6 +36,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TITLE, X = "a stored study", "worker processes"
 SECONDS, LONGEST = 4.0, 60.0  # that the parts of a sample take one worker, and at most
 EVEN = 8  # times the dearest part: what is less cannot be shared evenly
+PATIENCE = 120.0  # [s] until all workers have begun
 SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
 MEMORY = False  # of the workers is not seen here
 Part = list[tuple[int, dict[str, Any]]]  # numbers and settings of cells
@@ -136,6 +137,8 @@ def _warmed(study: Study, shared: tuple[Part, str, int]) -> float:
     _computed(study, part)
     forget()
     while len(os.listdir(folder)) < workers:
+        if time() > begun + PATIENCE:
+            raise RuntimeError(f"{workers} workers did not begin within {PATIENCE:g} s")
         sleep(0.01)
     return begun
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..datafiles import data_path, opened
-from ..errors import DataFileError, LedgerError
+from ..errors import DataFileError, InputError, LedgerError
 from ..tracking import note, recording
 from .closure import closure, hash_file, hash_inputs
 from .comparison import Comparison
@@ -187,6 +187,9 @@ class Study:
 
     def handed_out(self, chunks: Sequence[np.ndarray]) -> list[int]:
         """Positions of these chunks in the order in which workers get them."""
+        beyond = [cell for cell in self.dearest if cell >= sum(map(len, chunks))]
+        if beyond:
+            raise InputError(f"study {self.name}", "dearest", beyond, "numbers of its cells")
         rank = {cell: place for place, cell in enumerate(self.dearest)}
         return sorted(
             range(len(chunks)),

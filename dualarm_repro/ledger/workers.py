@@ -42,8 +42,8 @@ def results(
 ) -> Iterator[Any]:
     """The results of ``function(a, b)`` for every task, in the order of the tasks.
 
-    A worker gets its next task when it has done the one before: joblib would put short ones into
-    batches of up to 2 s, and at the end one worker would wait for another.
+    A worker of this machine gets its next task when it has done the one before: joblib would put
+    short ones into batches of up to 2 s, and at the end one worker would wait for another.
 
     Parameters
     ----------

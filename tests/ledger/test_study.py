@@ -110,6 +110,11 @@ def test_the_dearest_cells_are_computed_first_and_their_rows_stay_in_place(toy, 
     assert table.equals(toy().run(scratch=tmp_path))
 
 
+def test_a_dearest_cell_that_there_is_not_is_named(toy, tmp_path):
+    with pytest.raises(InputError, match=rf"dearest.*{CELLS}"):
+        toy(dearest=(CELLS,)).run(scratch=tmp_path)
+
+
 def test_a_damaged_chunk_is_computed_again(toy, tmp_path):
     expected = toy().run(scratch=tmp_path)
     folder = tmp_path / f"toy_sweep-{toy().code['digest'][:16]}"
