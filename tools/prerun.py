@@ -12,6 +12,7 @@ import logging
 import os
 import re
 import sys
+import threading
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
@@ -114,6 +115,7 @@ def warm(item_ids: Iterable[str] | None = None, drawn: bool = True) -> None:
                 done = pool.map(partial(_compute, drawn), in_turn(pages, read_costs()))
             list(done)
         except KeyboardInterrupt:
+            threading.excepthook = lambda _: None  # the pool's own, which finds its workers gone
             for worker in active_children():
                 worker.kill()
             raise
