@@ -140,6 +140,13 @@ def test_workers(run):
     ]
 
 
+def test_a_run_that_took_wall_for_cpu_time_tells_no_cpu_time():
+    content = json.loads(json.dumps(CONTENT))
+    del content["growth"][1]["series"][0]["points"][1]["start_seconds"]
+    older = BenchmarkRun.model_validate(content)
+    assert cells(benchmark_page.workers_page(older)) == [["a_study", "1.9", "1.0", "1.9"]]
+
+
 def test_claims_are_drawn_by_their_margin(run):
     figure, finding, alt = benchmark_figures.claims_figure(run)
     (ax,) = figure.axes
