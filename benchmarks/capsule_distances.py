@@ -61,7 +61,7 @@ def _placed(scene: Scene, q: np.ndarray) -> Iterator[Row]:
     pin.updateGeometryPlacements(model, data, geometry, shapes, q[0])
 
     def ours() -> np.ndarray:
-        capsules_capsules(placed.cores, bodies.radius, pairs, out, _NO_WITNESS)
+        capsules_capsules(placed.cores, bodies.radius, pairs, out, _NO_WITNESS, 0)
         return out
 
     def loop() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 import operator
 import types
@@ -20,6 +21,10 @@ from .errors import InputError, UnknownNameError
 
 #: Mark of a number or an array in which NaN or infinity has a meaning.
 OPEN = "may hold NaN or infinity"
+#: Mark of a number or an array that may be infinite, but not NaN.
+INFINITE = "may be infinite"
+#: Mark of an array that must not be empty.
+FILLED = "not empty"
 #: Mark of an array that the class itself checks, with an error of its own kind.
 LATER = "checked by the class"
 #: Mark of an array of truth values.
@@ -43,10 +48,21 @@ class Shape(tuple):
         if wanted and wanted[0] is ...:
             wanted = wanted[1:]
             shape = shape[max(len(shape) - len(wanted), 0) :]
-        return len(shape) == len(wanted) and all(
-            (sizes.setdefault(one, length) if isinstance(one, str) else one) == length
-            for one, length in zip(wanted, shape, strict=True)
-        )
+        if len(shape) != len(wanted):
+            return False
+        met: dict[str, int] = {}
+        for one, length in zip(wanted, shape, strict=True):
+            if isinstance(one, str):
+                one = sizes.get(one, met.setdefault(one, length))
+            if one != length:
+                return False
+        sizes.update(met)
+        return True
+
+    def told(self, sizes: dict[str, int]) -> str:
+        """The shape, and the lengths of its letters that are known already."""
+        known = [f"{one} = {sizes[one]}" for one in dict.fromkeys(self) if one in sizes]
+        return ", ".join([str(self), *known])
 
 
 @dataclass(frozen=True)
@@ -176,7 +192,8 @@ def _number(kind: type, marks: tuple[Any, ...]) -> Requirement:
         (sign, getattr(one, sign)) for one in limits for sign in _BOUNDS if hasattr(one, sign)
     ]
     kind_of = "a whole number" if kind is int else "a number"
-    words = [kind_of if kind is int or OPEN in marks else "a finite number"]
+    endless = OPEN in marks or INFINITE in marks
+    words = [kind_of if kind is int or endless else "a finite number"]
     words += [f"{_BOUNDS[sign][0]} {bound}" for sign, bound in bounds]
     expected = ", ".join(words)
 
@@ -191,10 +208,12 @@ def _number(kind: type, marks: tuple[Any, ...]) -> Requirement:
             raise _Wrong(value, expected) from None
         if kind is int and abs(value) >= _MACHINE:
             raise _Wrong(value, expected)
-        if not (OPEN in marks or abs(size) < _LARGEST):
+        if not (endless or abs(size) < _LARGEST) or (math.isnan(size) and OPEN not in marks):
             raise _Wrong(value, expected)
         if not all(_BOUNDS[sign][1](size, bound) for sign, bound in bounds):
             raise _Wrong(value, expected)
+        if isinstance(value, float) and value == 0.0:
+            return 0.0  # also of -0.0, which would make an interval of negative length
         return value if isinstance(value, int | float) else kind(value)
 
     return Requirement(expected, accept)
@@ -213,8 +232,10 @@ _BOUNDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
 def _array(convert: bool, marks: tuple[Any, ...]) -> Requirement:
     shape = next((mark for mark in marks if isinstance(mark, Shape)), None)
     kinds = "b" if MASK in marks else "fiu"
-    what = "truth values" if MASK in marks else "numbers" if OPEN in marks else "finite numbers"
-    expected = f"{what} {shape}" if shape else what
+    endless = OPEN in marks or INFINITE in marks
+    what = "truth values" if MASK in marks else "numbers" if endless else "finite numbers"
+    filled = f", {FILLED}" if FILLED in marks else ""
+    expected = f"{what} {shape}{filled}" if shape else f"{what}{filled}"
 
     def accept(value: Any, sizes: dict[str, int]) -> Any:
         try:
@@ -224,10 +245,13 @@ def _array(convert: bool, marks: tuple[Any, ...]) -> Requirement:
         # An empty list is an array of floats; a mask over an array would be dropped unseen.
         if array.dtype.kind not in kinds or isinstance(value, np.ma.MaskedArray):
             raise _Wrong(value, expected)
-        if shape is not None and not shape.fits(array.shape, sizes):
-            raise _Wrong(array.shape, expected, " (its shape)")
+        empty = filled and not array.size
+        if empty or (shape is not None and not shape.fits(array.shape, sizes)):
+            wanted = shape.told(sizes) if shape else ""
+            raise _Wrong(array.shape, f"{what} {wanted}{filled}", " (its shape)")
         if array.dtype.kind == "f" and OPEN not in marks:
-            small = np.abs(array) < _LARGEST  # False for NaN
+            # The first is False for NaN.
+            small = np.abs(array) < _LARGEST if INFINITE not in marks else ~np.isnan(array)
             if not small.all():
                 raise _Wrong(float(array[~small].flat[0]), expected)
         if not convert or MASK in marks:

@@ -2,8 +2,9 @@
 
 ``float`` and ``int`` are finite numbers, an array holds finite real numbers, a choice is one of its
 names, and everything else is an instance of what is asked for. ``Annotated`` says more: bounds of
-``pydantic.Field``, the :class:`Shape` of an array, and :data:`OPEN` where NaN or infinity has a
-meaning. What is wrong becomes one line of an :class:`.InputError` that names function and argument.
+``pydantic.Field``, the :class:`Shape` of an array, :data:`FILLED` if it must not be empty,
+:data:`INFINITE` where infinity and :data:`OPEN` where NaN as well has a meaning. What is wrong
+becomes one line of an :class:`.InputError` that names function and argument.
 """
 
 from __future__ import annotations
@@ -17,14 +18,28 @@ from typing import Annotated, Any, TypeVar
 import numpy as np
 from pydantic import Field
 
-from .annotation import LATER, MASK, OPEN, Requirement, Shape, requirement_of
+from .annotation import (
+    FILLED,
+    INFINITE,
+    LATER,
+    MASK,
+    OPEN,
+    Requirement,
+    Shape,
+    requirement_of,
+)
 from .settings import Positive
 
 __all__ = [
+    "FILLED",
+    "INFINITE",
     "LATER",
     "MASK",
     "OPEN",
+    "Cloud",
     "Count",
+    "JointRows",
+    "Joints",
     "NonNegative",
     "Number",
     "Positive",
@@ -46,6 +61,11 @@ Seed = Annotated[int, Field(ge=0)]
 #: Vectors (N, 3), and one (3,).
 Rows3 = Annotated[np.ndarray, Shape("N", 3)]
 Vector3 = Annotated[np.ndarray, Shape(3)]
+#: Vectors (N, 3), at least one.
+Cloud = Annotated[np.ndarray, Shape("N", 3), FILLED]
+#: One configuration (n,), and one or rows of them (N, n).
+Joints = Annotated[np.ndarray, Shape("n")]
+JointRows = Annotated[np.ndarray, Shape(..., "n")]
 
 _Entry = TypeVar("_Entry", bound=Callable[..., Any])
 

@@ -1,164 +1,17 @@
-"""Compiled functions, whose machine code is kept under what it depends on.
-
-The cache of numba knows the file of a function only: after an edit of a function that it calls, old
-machine code would go on running. Here the key is the import closure of the function's module, and
-the field names of the named tuples that it is given, whose classes may be anywhere.
-"""
+"""Functions that are compiled by numba."""
 
 from __future__ import annotations
 
-import os
-import pickle
-import sys
 from collections.abc import Callable
-from functools import cache
-from hashlib import sha256
-from pathlib import Path
-from platform import python_version
 from typing import Any
 
-import llvmlite
-import numba
 from numba import njit, types
-from numba.core.caching import (
-    CompileResultCacheImpl,
-    FunctionCache,
-    IndexDataCacheFile,
-    NullCache,
-    _CacheLocator,
-)
+from numba.core import config
 
-from .cache_folder import cache_folder
-from .sources import graph
-from .terminal import watched
+from .interruption import uninterrupted
+from .machine_code import MachineCode, NoMachineCode
 
-
-@cache
-def stamp(module: str) -> str:
-    """What the machine code of a module depends on: its import closure and the compiler."""
-    found = graph().digest(graph().closure([module]))
-    versions = (numba.__version__, llvmlite.__version__, python_version())
-    return sha256(f"{found} {versions}".encode()).hexdigest()
-
-
-def compiled_folder() -> Path | None:
-    """Folder of the machine code (``NUMBA_CACHE_DIR`` if set), or None where nothing is kept."""
-    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(chosen)
-    root = cache_folder()
-    return root / "compiled" if root else None
-
-
-class _Locator(_CacheLocator):
-    """Machine code below the cache folder, by module and stamp."""
-
-    def __init__(self, function: Callable[..., Any], folder: Path) -> None:
-        self._module, self._folder = function.__module__, folder
-
-    def get_cache_path(self) -> str:
-        return str(self._folder / self._module / stamp(self._module)[:16])
-
-    def get_source_stamp(self) -> str:
-        return stamp(self._module)
-
-    def get_disambiguator(self) -> str:
-        return ""
-
-    @classmethod
-    def from_function(cls, function: Callable[..., Any], file: str) -> _Locator | None:
-        folder = compiled_folder()
-        if folder is None:
-            return None
-        found = cls(function, folder)
-        try:
-            found.ensure_cache_path()
-        except OSError:  # a cache that cannot be written only costs time
-            return None
-        return found
-
-
-class _Implementation(CompileResultCacheImpl):
-    _locator_classes = [_Locator]  # noqa: RUF012 - the name and type numba looks for
-
-
-class _Sealed(IndexDataCacheFile):
-    """Machine code that is believed only with the hash it was written with.
-
-    What is damaged would end the process, or compute something else; it is compiled again.
-    """
-
-    def _dump(self, obj: Any) -> bytes:
-        written = super()._dump(obj)
-        return sha256(written).digest() + written
-
-    def _load_index(self) -> dict[Any, str]:
-        try:
-            with open(self._index_path, "rb") as file:
-                version = pickle.load(file)
-                stamp, overloads = pickle.loads(_unsealed(file.read()))
-        except Exception:  # whatever damaged bytes make of it
-            return {}
-        return overloads if (version, stamp) == (self._version, self._source_stamp) else {}
-
-    def _load_data(self, name: str) -> Any:
-        written = Path(self._data_path(name)).read_bytes()
-        return pickle.loads(_unsealed(written))
-
-
-def _unsealed(written: bytes) -> bytes:
-    """What stands behind its hash; OSError, which numba takes for a miss, if it is another."""
-    seal, rest = written[:32], written[32:]
-    if sha256(rest).digest() != seal:
-        raise OSError("not what was written")
-    return rest
-
-
-@cache
-def _say_once() -> None:
-    """Tell who watches, once in a process, what the first use of a function takes its time for."""
-    if watched():
-        print("Compiling for this machine; the next time this is quick.", file=sys.stderr)
-
-
-class _NoCache(NullCache):
-    def load_overload(self, sig: Any, target_context: Any) -> None:
-        _say_once()
-
-
-class _Cache(FunctionCache):
-    _impl_class = _Implementation
-
-    def __init__(self, function: Callable[..., Any]) -> None:
-        super().__init__(function)
-        place = self._impl.locator
-        self._cache_file = _Sealed(
-            self._cache_path, self._impl.filename_base, place.get_source_stamp()
-        )
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        try:
-            super().save_overload(sig, data)
-        except OSError:
-            return  # a cache that cannot be written only costs time
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        found = super().load_overload(sig, target_context)
-        if found is None:
-            _say_once()
-        return found
-
-    def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
-        _, *rest = super()._index_key(sig, codegen)
-        return tuple(map(_layout, getattr(sig, "args", sig))), *rest
-
-
-def _layout(kind: Any) -> Any:
-    """A type, but of a named tuple its name and fields: the class may change between two runs."""
-    if not isinstance(kind, types.BaseTuple):
-        return kind
-    cls = getattr(kind, "instance_class", tuple)
-    named = (cls.__module__, cls.__qualname__, getattr(cls, "_fields", ()))
-    return *named, *map(_layout, getattr(kind, "types", ()))
+_NUMBA: Any = config
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -166,18 +19,52 @@ def kernel(function: Callable[..., Any]) -> Any:
 
     It runs without the interpreter's lock, so that threads can share the cores.
     """
-    return _kept(function, njit(error_model="numpy", nogil=True)(function))
+    return _compiled(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
     """The same for a function that is part of a loop over lanes, which only becomes SIMD code
     without a call in it."""
-    return _kept(function, njit(error_model="numpy", nogil=True, forceinline=True)(function))
+    return _compiled(function, forceinline=True)
 
 
-def _kept(function: Callable[..., Any], compiled: Any) -> Any:
+def _compiled(function: Callable[..., Any], **options: Any) -> Any:
+    """For Python, and for other kernels without the wrappers that only Python needs: compiling
+    them takes a fifth of the time."""
+    if _NUMBA.DISABLE_JIT:
+        return function
+    nested = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    outer = _kept(function, nested=False, **options)
+    inner = _kept(function, nested=True, **options, **nested)
+    template, overload = outer.get_call_template, outer.get_overload
+
+    def template_for_kernels(arguments: Any, keywords: Any) -> Any:
+        # A constant is no type of its own, for which everything were compiled once more.
+        arguments = tuple(map(types.unliteral, arguments))
+        keywords = {name: types.unliteral(kind) for name, kind in keywords.items()}
+        _, kinds = outer._compiler.fold_argument_types(arguments, keywords)
+        known = tuple(kinds) in outer.overloads
+        return (template if known else inner.get_call_template)(arguments, keywords)
+
+    def overload_for_kernels(signature: Any) -> Any:
+        known = tuple(getattr(signature, "args", signature)) in outer.overloads
+        return (overload if known else inner.get_overload)(signature)
+
+    outer.get_call_template, outer.get_overload = template_for_kernels, overload_for_kernels
+    return outer
+
+
+def _kept(function: Callable[..., Any], *, nested: bool, **options: Any) -> Any:
+    compiled = njit(error_model="numpy", nogil=True, **options)(function)
     try:
-        compiled._cache = _Cache(function)
-    except RuntimeError:  # no folder to keep machine code in
-        compiled._cache = _NoCache()
+        compiled._cache = MachineCode(function, nested)
+    except RuntimeError:
+        compiled._cache = NoMachineCode()
+    compile_one = compiled.compile
+
+    def compile_undisturbed(signature: Any) -> Any:
+        with uninterrupted():  # an exception in a callback of LLVM is lost, and so is the function
+            return compile_one(signature)
+
+    compiled.compile = compile_undisturbed
     return compiled

@@ -54,6 +54,7 @@ class Graph:
         self._modules: dict[str, Module] = {}
         self._followed: dict[str, tuple[str, ...]] = {}
         self._index: dict[str, Any] = _read_index(index)
+        self._read: dict[str, bytes] = {}
         self._new = False
 
     @cached_property
@@ -65,10 +66,14 @@ class Graph:
             found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
         return found
 
+    def read(self) -> None:
+        """Take the text of every module as it is now; it is parsed when it is asked for."""
+        self._read = {name: path.read_bytes() for name, path in self.files.items()}
+
     def module(self, name: str) -> Module:
         """One module of the package."""
         if name not in self._modules:
-            raw = self.files[name].read_bytes()
+            raw = self._read[name] if name in self._read else self.files[name].read_bytes()
             key = sha256(name.encode() + b"\0" + raw).hexdigest()
             kept = self._index.get(key)
             if kept is None:
@@ -137,6 +142,7 @@ class Graph:
             return
         self._new = False
         try:
+            self._index = _read_index(self._index_file) | self._index  # what others have parsed
             self._index_file.parent.mkdir(parents=True, exist_ok=True)
             temporary = self._index_file.with_suffix(f".{os.getpid()}")
             temporary.write_text(json.dumps(self._index), encoding="utf-8")
@@ -150,9 +156,7 @@ def graph() -> Graph:
     """The graph of this package, all of it read at once: as near as can be to what is running."""
     folder = cache_folder()
     found = Graph(Path(__file__).resolve().parent, folder / "sources.json" if folder else None)
-    for name in found.files:
-        found.module(name)
-    found.save()
+    found.read()
     return found
 
 
@@ -186,11 +190,13 @@ def _parse(name: str, is_package: bool, raw: bytes) -> list[Any]:
 
 def _running(tree: ast.AST) -> Iterator[ast.AST]:
     """All nodes but those that only a type checker sees."""
-    for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
-            continue
-        yield node
-        yield from _running(node)
+    waiting = [tree]
+    while waiting:
+        for node in ast.iter_child_nodes(waiting.pop()):
+            if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+                continue
+            yield node
+            waiting.append(node)
 
 
 def _imports_of(node: ast.AST, package: list[str]) -> Iterator[list[str]]:
@@ -216,7 +222,8 @@ def _code(raw: bytes, tree: ast.AST) -> str:
     """The text without docstrings, comments and empty lines: the same for every version of Python,
     which a dump of the syntax tree is not."""
     lines = raw.decode("utf-8").splitlines()
-    for token in generate_tokens(StringIO("\n".join(lines) + "\n").readline):
+    text = "\n".join(lines) + "\n"
+    for token in generate_tokens(StringIO(text).readline) if "#" in text else ():
         if token.type == COMMENT:
             row, column = token.start
             lines[row - 1] = lines[row - 1][:column]

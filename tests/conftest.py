@@ -6,12 +6,18 @@ test tries in short, or the mark gives the reason why none does.
 """
 
 import gc
+import sys
+from pathlib import Path
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
 from long_tests import COLLECTED
-from schedule import DearestFirst, cost_of, group_of
+from schedule import DearestFirst, order_of
+
+sys.path.append(str(Path(__file__).parents[1] / "tools" / "sphinx_ext"))
+
+from rare_collections import THRESHOLDS
 
 mpl.use("agg")
 settings.register_profile("reproducible", deadline=None, derandomize=True, print_blob=True)
@@ -34,13 +40,14 @@ def pytest_collection_modifyitems(config, items):
         for item in items
         for mark in [item.get_closest_marker("long")]
     ]
-    items.sort(key=lambda item: -cost_of(group_of(item.nodeid)))
+    items.sort(key=lambda item: order_of(item.nodeid))
 
 
 def pytest_collection_finish():
     """Thousands of tests are no garbage, and looking through them again and again is no test."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(*THRESHOLDS)
 
 
 @pytest.hookimpl(optionalhook=True)

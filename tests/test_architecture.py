@@ -24,6 +24,8 @@ FLOORS = (
         "settings",
         "annotation",
         "arguments",
+        "interruption",
+        "machine_code",
         "kernel",
         "differences",
         "instrument",

@@ -11,9 +11,14 @@ import pytest
 from numpy.typing import ArrayLike
 
 from dualarm_repro.arguments import (
+    FILLED,
+    INFINITE,
     MASK,
     OPEN,
+    Cloud,
     Count,
+    Joints,
+    NonNegative,
     Number,
     Positive,
     Rows3,
@@ -56,6 +61,11 @@ def taking(kind):
         (np.ndarray, [True, False]),
         (Rows3, np.zeros(3)),
         (Vector3, np.zeros(2)),
+        *((Cloud, wrong) for wrong in (np.empty((0, 3)), np.zeros(3), [])),
+        *((Joints, wrong) for wrong in (np.zeros((1, 6)), 0.0)),
+        *((Annotated[float, INFINITE], wrong) for wrong in (np.nan, "inf", None)),
+        (Annotated[np.ndarray, INFINITE], [np.inf, np.nan]),
+        (Annotated[np.ndarray, FILLED], np.empty((3, 0))),
         (Annotated[np.ndarray, Shape(..., 3, 2)], np.zeros((4, 2, 3))),
         (Annotated[np.ndarray, MASK], np.zeros(3)),
         (Colour, "green"),
@@ -85,6 +95,7 @@ def test_what_does_not_fit_is_refused_on_one_line(kind, value):
     [
         *((float, right) for right in (1, 0.5, np.float32(0.5), np.int64(3))),
         (Annotated[float, OPEN], np.inf),
+        (Annotated[float, INFINITE], -np.inf),
         *((int, right) for right in (0, -3, np.int64(3))),
         *((bool, right) for right in (True, np.bool_(False))),
         (Collection[str], {"a", "b"}),
@@ -138,6 +149,39 @@ def test_a_letter_is_one_length_in_the_whole_call():
     assert pairs(np.zeros((2, 3)), b=np.zeros(2)) == 2
     with pytest.raises(InputError, match=r"pairs: b \(its shape\) = \(3,\): expected .* \(N,\)"):
         pairs(np.zeros((2, 3)), b=np.zeros(3))
+
+
+def test_what_is_known_of_a_letter_is_said():
+    @checked
+    def fitted(
+        a: Annotated[np.ndarray, Shape("N", "K")], b: Annotated[np.ndarray, Shape("K", "M", 2)]
+    ) -> None:
+        """Takes two arrays."""
+
+    line = r"b \(its shape\) = \(2, 7, 3\): expected finite numbers \(K, M, 2\), K = 4"
+    with pytest.raises(InputError, match=f"{line}$"):
+        fitted(np.zeros((3, 4)), np.zeros((2, 7, 3)))
+
+
+def test_one_of_two_shapes_leaves_no_letter_behind():
+    @checked
+    def either(
+        a: Annotated[np.ndarray, Shape("N", 3)] | Annotated[np.ndarray, Shape("N")],
+        b: Annotated[np.ndarray, Shape("N")],
+    ) -> int:
+        return len(b)
+
+    assert either(np.zeros(4), np.zeros(4)) == either(np.zeros((4, 3)), np.zeros(4)) == 4
+
+
+def test_infinite_bounds_arrive():
+    bounds = np.array([-np.inf, 0.0, np.inf])
+    assert taking(Annotated[np.ndarray, INFINITE])(bounds) is bounds
+
+
+@pytest.mark.parametrize("zero", [-0.0, np.float64(-0.0)])
+def test_no_width_is_minus_zero(zero):
+    assert str(taking(NonNegative)(zero)) == "0.0"
 
 
 def test_a_class_checks_what_it_is_made_of():

@@ -105,6 +105,29 @@ def test_the_index_is_keyed_by_content(folder, tmp_path):
     assert Graph(folder, index).digest(name) != before.digest(name)
 
 
+def test_two_processes_keep_what_both_have_parsed(folder, tmp_path, monkeypatch):
+    index = tmp_path / "index.json"
+    one, other = Graph(folder, index), Graph(folder, index)
+    names = [name for name in one.files if not one.files[name].name.startswith("__")]
+    one.module(names[0])
+    other.module(names[1])
+    one.save()
+    other.save()
+    monkeypatch.setattr("dualarm_repro.sources._parse", None)  # nothing is parsed again
+    third = Graph(folder, index)
+    assert third.module(names[0]) == one.module(names[0])
+    assert third.module(names[1]) == other.module(names[1])
+
+
+def test_the_text_that_counts_is_that_of_the_reading(folder):
+    name, path = "dualarm_repro.room.inner", folder / "room/inner.py"
+    before, read = Graph(folder).digest([name]), Graph(folder)
+    read.read()
+    path.write_text(path.read_text().replace("return VALUE", "return 5 * 1"))
+    assert read.digest([name]) == before, "the process runs what it has read"
+    assert Graph(folder).digest([name]) != before
+
+
 @pytest.mark.parametrize("folder", ["benchmarks", "examples", "tools"])
 def test_what_lies_beside_the_package_imports_what_is_there(folder):
     for path in (ROOT / folder).rglob("*.py"):

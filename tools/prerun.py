@@ -6,28 +6,34 @@ them on all processors and lists every failure.
 
 from __future__ import annotations
 
+import gc
 import json
 import logging
 import os
 import re
 import sys
+import threading
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from functools import partial
 from hashlib import sha256
+from itertools import zip_longest
+from multiprocessing import active_children
 from pathlib import Path
 from typing import Any
 
 import yaml
 from jupyter_cache.executors import load_executor
 from notebook_cache import open_cache, seal
+from sphinx_ext.rare_collections import THRESHOLDS
 
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.ledger import record
 from dualarm_repro.ledger.closure import closure_of_modules, hash_file
 from dualarm_repro.ledger.files import to_json, write_text
 from dualarm_repro.ledger.reference import read_costs
+from dualarm_repro.ledger.workers import deaf
 from dualarm_repro.papers import load
 from dualarm_repro.sources import graph
 from dualarm_repro.view.page import pictures
@@ -76,22 +82,43 @@ def isolate_kernels(folder: Path) -> None:
     os.environ["IPYTHONDIR"] = str(folder)
 
 
-def warm(item_ids: Iterable[str] | None = None, drawn: bool = True) -> None:
-    """Compute the record of every item once, in parallel, and its pictures if it is to be drawn.
+def in_turn(pages: dict[str, list[str]], costs: dict[str, float]) -> list[list[str]]:
+    """The items of each page: the longest page of every document first, then the second longest.
 
-    The items of a page go together, since they share what they compute; the longest page first, so
-    that none runs alone at the end.
+    The items of a page go together, since they share what they compute. Pages of a document share
+    what is compiled for them: those who begin at once begin with different documents.
     """
+
+    def cost(page: str) -> float:
+        return sum(costs.get(item_id, 0.0) for item_id in pages[page])
+
+    ranked: dict[str, list[str]] = {}
+    for page in sorted(pages, key=lambda page: -cost(page)):
+        ranked.setdefault(page.partition("/")[0], []).append(page)
+    rounds = zip_longest(*ranked.values())
+    return [pages[page] for one in rounds for page in one if page is not None]
+
+
+def warm(item_ids: Iterable[str] | None = None, drawn: bool = True) -> None:
+    """Compute the record of every item once, in parallel, and its pictures if it is to be drawn."""
     registry = load()
     chosen = registry.items if item_ids is None else set(item_ids)
-    costs = read_costs()
     pages: dict[str, list[str]] = {}
     for item_id, checker in registry.checkers.items():
         if item_id in chosen:
             pages.setdefault(checker.page, []).append(item_id)
-    order = sorted(pages.values(), key=lambda ids: -sum(costs.get(i, 0.0) for i in ids))
+    gc.freeze()
+    gc.set_threshold(*THRESHOLDS)  # the workers inherit it: a compiler makes little garbage
     with ProcessPoolExecutor() as pool:
-        list(pool.map(partial(_compute, drawn), order))
+        try:
+            with deaf():  # whoever is interrupted ends the workers, which tell nothing of it
+                done = pool.map(partial(_compute, drawn), in_turn(pages, read_costs()))
+            list(done)
+        except KeyboardInterrupt:
+            threading.excepthook = lambda _: None  # the pool's own, which finds its workers gone
+            for worker in active_children():
+                worker.kill()
+            raise
 
 
 def _compute(drawn: bool, item_ids: list[str]) -> None:
@@ -202,5 +229,13 @@ def main() -> int:
     return 1 if failed else 0
 
 
+def process() -> int:
+    """:func:`main`, whose interruption needs no words; 130 then, as of any command."""
+    try:
+        return main()
+    except KeyboardInterrupt:
+        return 130
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(process())

@@ -1,4 +1,17 @@
-"""Cells of each stored study by one worker process and by two."""
+"""Each stored study by one worker process and by two.
+
+What is told is what a user waits for: ``dualarm study NAME --jobs 2`` beside ``--jobs 1``. Some
+studies take a quarter of an hour, so a sample is measured and scaled to the whole: parts as a study
+hands them out, one after the other to whoever is free, drawn with a seed and the same for any
+number of workers, none of them twice, since a process may remember what it has computed.
+
+A study is done when its last part is. That is one of many, and one of a few in a sample, which thus
+ends more unevenly than the study; so the dearest parts of a sample are handed out first. Where the
+sample is the whole study, its parts come in the order in which the study hands them out.
+
+The start of the workers is paid once a study and is told apart, not scaled. CPU time is that of all
+processes: two workers that take more of it than one do some work twice.
+"""
 
 from __future__ import annotations
 
@@ -6,23 +19,27 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from time import perf_counter, sleep
+from tempfile import TemporaryDirectory
+from time import perf_counter, process_time, sleep, time
+from typing import Any
 
 import numpy as np
 
-from dualarm_repro.ledger.study import Study
+from dualarm_repro.ledger.study import Study, parts
 from dualarm_repro.ledger.workers import results
 from dualarm_repro.papers import load
+from dualarm_repro.tracking import forget
 
 ROOT = Path(__file__).resolve().parents[2]
-TITLE, X = "cells of a stored study", "worker processes"
-SECONDS, LONGEST = 3.0, 8.0  # that the cells of a call take one worker, and at most
-EVEN = 8  # times the dearest cell: what is less cannot be shared evenly
+TITLE, X = "a stored study", "worker processes"
+SECONDS, LONGEST = 4.0, 60.0  # that the parts of a sample take one worker, and at most
+EVEN = 8  # times the dearest part: what is less cannot be shared evenly
+PATIENCE = 120.0  # [s] until all workers have begun
 SMALLEST = 0.1  # [s] of a study, below which there is nothing to share
-CHUNKS = 64  # as many as a study hands out
 MEMORY = False  # of the workers is not seen here
+Part = list[tuple[int, dict[str, Any]]]  # numbers and settings of cells
 
 
 def times() -> dict[str, object]:
@@ -34,74 +51,99 @@ def times() -> dict[str, object]:
     sizes = [n for n in (1, 2, 4, 8) if n <= (os.cpu_count() or 1)]
     made = []
     for name, study in load().studies.items():
-        spent = [] if study.missing_peers() else _in_a_process("drawn", name)
-        if sum(spent) > SMALLEST:
-            points = [{"x": n, **_in_a_process("spent", name, n, spent)} for n in sizes]
+        costs = [] if study.missing_peers() else _in_a_process("sampled", name)
+        if sum(costs) > SMALLEST:
+            points = [{"x": n, **_in_a_process("waited", name, n, costs)} for n in sizes]
             made.append({"name": name, "limit": False, "points": points})
     return {"title": TITLE, "x": X, "series": made}
 
 
-def drawn(name: str) -> list[float]:
-    """Seconds of as many cells of a study, in an order drawn with a seed, as a call computes."""
+def sampled(name: str) -> list[float]:
+    """Seconds of the first parts of a study in the order of :func:`drawn_parts`, enough of them to
+    be shared evenly."""
     study = load().studies[name]
-    cells, order = study.cells(), order_of(study)
-    study.cell(order[0], cells[order[0]])  # compiles
-    spent: list[float] = []
-    for k in order:
+    order = drawn_parts(study)
+    _computed(study, order[0])  # compiles
+    forget()
+    costs: list[float] = []
+    for part in order:
         begun = perf_counter()
-        study.cell(k, cells[k])
-        spent.append(perf_counter() - begun)
-        total = sum(spent)
-        if total > LONGEST or (total > SECONDS and total >= EVEN * max(spent)):
+        _computed(study, part)
+        costs.append(perf_counter() - begun)
+        total = sum(costs)
+        if total > LONGEST or (total > SECONDS and total >= EVEN * max(costs)):
             break
-    return spent
+    return costs
 
 
-def spent(name: str, workers: int, drawn: Sequence[float]) -> dict[str, object]:
-    """Seconds of a call by so many workers, who have started and computed another cell each."""
+def waited(name: str, workers: int, costs: Sequence[float]) -> dict[str, object]:
+    """Wall and CPU seconds of a study by so many workers that have started and loaded its code, and
+    the seconds until they had started."""
     study = load().studies[name]
-    order = order_of(study)
-    warm = [(_warmed, study, order[0])] * workers
-    list(results(warm, workers, name, workers))
-    parts = chunks(chosen(order, drawn))
-    tasks = ((_computed, study, part) for part in parts)
-    begun = perf_counter()
-    list(results(tasks, len(parts), name, workers))
-    taken = perf_counter() - begun
-    # Once, since what is computed again is remembered; and the CPU time is that of the workers.
-    return {"seconds": taken, "quartiles": [taken, taken], "cpu_seconds": taken}
+    order = drawn_parts(study)
+    # A worker collects garbage once after its first task, which is part of its start: two tasks.
+    started, _ = (warmed(study, order[0], workers) for _ in range(2))
+    sample = handed_out(study, order, costs)
+    tasks = ((_computed, study, part) for part in sample)
+    begun, used = perf_counter(), process_time()
+    spent = list(results(tasks, len(sample), name, workers))
+    taken, used = perf_counter() - begun, process_time() - used
+    # One worker is this process itself.
+    cpu = used + (sum(spent) if workers > 1 else 0.0)
+    scale = len(study.cells()) / sum(map(len, sample))
+    wall = scale * taken
+    return {
+        "seconds": wall, "quartiles": [wall, wall],  # once, since it would be remembered
+        "cpu_seconds": scale * cpu, "start_seconds": started,
+    }  # fmt: skip
 
 
-def chosen(order: Sequence[int], drawn: Sequence[float]) -> list[int]:
-    """Cells of a call, the same for any number of workers; where a few take so long that they
-    cannot be shared evenly, these, the dearest first and each twice."""
-    if sum(drawn) < EVEN * max(drawn):
-        dearest = np.argsort(drawn)[::-1]
-        return [order[k] for k in np.repeat(dearest, 2).tolist()]
-    return list(order[1 : len(drawn) + 1])
+def warmed(study: Study, part: Part, workers: int) -> float:
+    """Seconds until each worker has begun this part, which it forgets again."""
+    called = time()
+    with TemporaryDirectory() as folder:
+        tasks = [(_warmed, study, (part, folder, workers))] * workers
+        return max(results(tasks, workers, study.name, workers)) - called
 
 
-def chunks(cells: Sequence[int]) -> list[list[int]]:
-    """Parts of the cells that are handed out, as those of a study are."""
-    return [part.tolist() for part in np.array_split(cells, min(CHUNKS, len(cells)))]
+def handed_out(study: Study, order: Sequence[Part], costs: Sequence[float]) -> list[Part]:
+    """The parts of a sample in the order in which workers get them."""
+    if len(costs) == len(order):
+        every = sorted(order, key=lambda part: part[0][0])
+        return [every[k] for k in study.handed_out(parts(len(study.cells())))]
+    return [order[k] for k in np.argsort(costs)[::-1].tolist()]
 
 
-def order_of(study: Study) -> list[int]:
-    """Numbers of all cells of a study in an order drawn with a seed."""
-    return np.random.default_rng(0).permutation(len(study.cells())).tolist()
-
-
-def _computed(study: Study, numbers: list[int]) -> list[object]:
+def drawn_parts(study: Study) -> list[Part]:
+    """All parts of a study, in an order drawn with a seed."""
     cells = study.cells()
-    return [study.cell(k, cells[k]) for k in numbers]
+    every = [[(k, cells[k]) for k in numbers.tolist()] for numbers in parts(len(cells))]
+    return [every[k] for k in np.random.default_rng(0).permutation(len(every)).tolist()]
 
 
-def _warmed(study: Study, number: int) -> None:
-    _computed(study, [number])
-    sleep(1.0)  # so that no worker gets the cell of another
+def _computed(study: Study, part: Part) -> float:
+    """CPU seconds of a part."""
+    begun = process_time()
+    for number, settings in part:
+        study.cell(number, settings)
+    return process_time() - begun
 
 
-def _in_a_process(*asked: object) -> object:
+def _warmed(study: Study, shared: tuple[Part, str, int]) -> float:
+    """When it began: the worker loads the code of a study, and waits for the others, so that none
+    gets the part of another."""
+    begun, (part, folder, workers) = time(), shared
+    Path(folder, str(os.getpid())).touch()
+    _computed(study, part)
+    forget()
+    while len(os.listdir(folder)) < workers:
+        if time() > begun + PATIENCE:
+            raise RuntimeError(f"{workers} workers did not begin within {PATIENCE:g} s")
+        sleep(0.01)
+    return begun
+
+
+def _in_a_process(*asked: object) -> Any:
     command = [sys.executable, __file__, *map(json.dumps, asked)]
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     made = subprocess.run(
@@ -114,4 +156,5 @@ def _in_a_process(*asked: object) -> object:
 
 if __name__ == "__main__":
     call, *arguments = map(json.loads, sys.argv[1:])
-    print(json.dumps({"drawn": drawn, "spent": spent}[call](*arguments)))
+    calls: dict[str, Callable[..., object]] = {"sampled": sampled, "waited": waited}
+    print(json.dumps(calls[call](*arguments)))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arguments import Count, Positive, Rows3, checked
+from ..arguments import Cloud, Count, Positive, checked
 from ..errors import InputError
 from .arm import Arm
 
@@ -41,9 +41,8 @@ def sample_workspace(arm: Arm, n: Count, rng: np.random.Generator) -> np.ndarray
 
 
 @checked
-def extents(points: Rows3) -> Extents:
+def extents(points: Cloud) -> Extents:
     """Extents of a cloud (n, 3) [m]."""
-    _require_some("extents", points)
     radius = np.hypot(points[:, 0], points[:, 1])
     distance = np.hypot(radius, points[:, 2])
     return Extents(
@@ -55,13 +54,12 @@ def extents(points: Rows3) -> Extents:
 
 
 @checked
-def voxel_volume(points: Rows3, cells: Sequence[Positive]) -> list[VoxelVolume]:
+def voxel_volume(points: Cloud, cells: Sequence[Positive]) -> list[VoxelVolume]:
     """V = h^3 * (number of cubes of edge h that hold a point), for several h [m].
 
     The number depends on h as much as on the workspace: small cubes stay empty for want of points,
     large ones stick out of the boundary. Use the rotation body of :mod:`.occupancy` for a volume.
     """
-    _require_some("voxel_volume", points)
     table = []
     for h in cells:
         if not (np.ptp(points, axis=0) / h + 1.0).prod() < _MOST_CUBES:
@@ -73,8 +71,3 @@ def voxel_volume(points: Rows3, cells: Sequence[Positive]) -> list[VoxelVolume]:
         occupied = np.unique(np.ravel_multi_index(index.T, size)).size
         table.append(VoxelVolume(float(h), occupied, occupied * float(h) ** 3))
     return table
-
-
-def _require_some(source: str, points: np.ndarray) -> None:
-    if not len(points):
-        raise InputError(source, "points", points.shape, "at least one point")

@@ -24,9 +24,10 @@ TRACEBACK_VARIABLE = "DUALARM_TRACEBACK"
 FAILED, BAD_INPUT, UNFORESEEN, INTERRUPTED = 1, 2, 70, 130
 #: Files were written, but the motion in them did not arrive or is not certified free of contact.
 NOT_USABLE = 3
-#: New objects after which garbage is sought. Loading and compiling make many that stay, and almost
-#: no garbage: Python's own 700 would cost a tenth of the time of a first plan.
-_COLLECT_AFTER = 100_000
+#: New objects after which garbage is sought, and how often among the older ones. Loading and
+#: compiling make many that stay, and almost no garbage: Python's own (700, 10, 10) would cost a
+#: tenth of the time of a first plan.
+_COLLECT_AFTER = (100_000, 20, 50)
 
 
 def process() -> None:
@@ -37,7 +38,7 @@ def process() -> None:
 def main(last: bool = False) -> None:
     """Exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not be run, 130
     when interrupted; ``last`` if the process ends with it."""
-    gc.set_threshold(_COLLECT_AFTER, *gc.get_threshold()[1:])
+    gc.set_threshold(*_COLLECT_AFTER)
     with _interruptions(last) as seen:
         try:
             _write_what_the_encoding_lacks()

@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from . import NOT_USABLE, output, planners, progress
+from .ahead import compiling_ahead
 
 #: Instead of a method: compare them all.
 ALL = "all"
@@ -38,7 +39,8 @@ methods = _enlisting(planners.methods)
 @wraps(planners.plan)
 def _plan(*given: Any, **named: Any) -> None:
     if named.get("method") != ALL:
-        planners.plan(*given, **named)
+        with compiling_ahead():
+            planners.plan(*given, **named)
         return
     scene = named["scene"]
     with progress.waiting(f"planning {scene.name} by every method"):

@@ -62,9 +62,9 @@ class Circles:
         No such time law.
     """
 
-    centre: np.ndarray
-    u: np.ndarray
-    v: np.ndarray
+    centre: Annotated[np.ndarray, Shape("A", 3)]
+    u: Annotated[np.ndarray, Shape("A", 3)]
+    v: Annotated[np.ndarray, Shape("A", 3)]
     duration: float = 10.0
     law: TimeLaw = TimeLaw.REST_TO_REST
 
@@ -81,15 +81,7 @@ class Circles:
 
     def __post_init__(self) -> None:
         for name in ("centre", "u", "v"):
-            array = np.array(getattr(self, name), dtype=float)
-            if array.ndim != 2 or array.shape[1] != 3 or array.shape != np.shape(self.centre):
-                raise InputError(
-                    "Circles", f"shape of {name}", array.shape, "(A, 3), one row per arm"
-                )
-            if not np.isfinite(array).all():
-                wrong = float(array[~np.isfinite(array)][0])
-                raise InputError("Circles", name, wrong, "finite numbers [m]")
-            object.__setattr__(self, name, array)
+            object.__setattr__(self, name, getattr(self, name).copy())
         if not (np.isfinite(self.duration) and self.duration > 0):
             raise InputError("Circles", "duration", self.duration, "a positive time [s]")
         object.__setattr__(self, "law", choice(TimeLaw, "Circles", "law", self.law))

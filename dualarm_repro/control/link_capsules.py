@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 import numpy as np
 import pinocchio as pin
 
-from ..arguments import Number, Rows3, checked
+from ..arguments import Cloud, Joints, Number, Vector3, checked
 from ..arms.arm import Arm
 from ..arms.capsules import LinkCapsule, capsule_ends, geometry_of, not_contained, to_segment
 from ..errors import InputError
@@ -19,7 +19,7 @@ def with_capsules(
     *,
     widened: Mapping[str, float] | None = None,
     dropped: Collection[str] = (),
-    added: Collection[tuple[str, int, np.ndarray, np.ndarray, float]] = (),
+    added: Collection[tuple[str, int, Vector3, Vector3, float]] = (),
 ) -> Arm:
     """The arm with other capsules; those that lie inside another one of their link are left out.
 
@@ -44,7 +44,7 @@ def with_capsules(
 
 
 @checked
-def sticking_out(arm: Arm, q: np.ndarray, joint: Number, points: Rows3) -> float:
+def sticking_out(arm: Arm, q: Joints, joint: Number, points: Cloud) -> float:
     """Largest distance of points of a link from the capsules of all links, negative inside [m].
 
     A link may be covered by the capsule of its neighbour, so that several q have to be checked.

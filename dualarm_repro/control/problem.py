@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import OPEN, checked
+from ..arguments import INFINITE, Shape, checked
 from ..errors import DualArmError, InputError, shorten
-from .parts import ProgramParts, shapes
+from .parts import ProgramParts
 
 #: Residual up to which a solution counts as certified.
 CERTIFIED = 1e-8
@@ -40,13 +40,13 @@ class QuadraticProgram:
         Shapes that do not fit, NaN, infinity other than in a bound, lower above upper.
     """
 
-    target: np.ndarray
-    A: np.ndarray
-    b: np.ndarray
-    G: np.ndarray
-    h: np.ndarray
-    lower: Annotated[np.ndarray, OPEN]
-    upper: Annotated[np.ndarray, OPEN]
+    target: Annotated[np.ndarray, Shape("n")]
+    A: Annotated[np.ndarray, Shape("m", "n")]
+    b: Annotated[np.ndarray, Shape("m")]
+    G: Annotated[np.ndarray, Shape("k", "n")]
+    h: Annotated[np.ndarray, Shape("k")]
+    lower: Annotated[np.ndarray, INFINITE, Shape("n")]
+    upper: Annotated[np.ndarray, INFINITE, Shape("n")]
 
     if TYPE_CHECKING:  # anything that makes an array is taken
 
@@ -62,23 +62,6 @@ class QuadraticProgram:
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        for name in self.__dataclass_fields__:
-            value = getattr(self, name)
-            try:
-                array = np.ascontiguousarray(value, dtype=float)
-            except (TypeError, ValueError):
-                raise InputError("QuadraticProgram", name, value, "an array of numbers") from None
-            object.__setattr__(self, name, array)
-        n, m, k = len(np.atleast_1d(self.target)), np.size(self.b), np.size(self.h)
-        for name, shape in shapes(n, m, k).items():
-            array = getattr(self, name)
-            if array.shape != shape:
-                raise InputError("QuadraticProgram", f"shape of {name}", array.shape, str(shape))
-            allowed = np.isfinite(array) if name not in ("lower", "upper") else ~np.isnan(array)
-            if not allowed.all():
-                raise InputError(
-                    "QuadraticProgram", name, float(array[~allowed][0]), "finite numbers"
-                )
         if not (self.lower <= self.upper).all():
             worst = int(np.argmax(self.lower - self.upper))
             raise InputError(

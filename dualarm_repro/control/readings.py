@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from ..arguments import Joints, Number, Shape, checked
+from ..errors import InputError
 from ..kernel import kernel
 from .system import ArmSystem
 
@@ -28,18 +30,45 @@ class Readings(NamedTuple):
     delay: int
 
     @classmethod
+    @checked
     def of(
         cls,
         system: ArmSystem,
         *,
-        noise: np.ndarray | None = None,
-        offset: np.ndarray | None = None,
-        delay: int = 0,
+        noise: Annotated[np.ndarray, Shape("T", "P")] | None = None,
+        offset: Joints | None = None,
+        delay: Number = 0,
     ) -> Readings:
-        """Readings of a system with the errors that are given."""
+        """Readings of a system with the errors that are given.
+
+        Raises
+        ------
+        InputError
+            An offset that is not of its joints.
+        """
         none = np.empty((0, 0))
-        still = np.zeros(system.nq)
-        return cls(none if noise is None else noise, still if offset is None else offset, delay)
+        offset = np.zeros(system.nq) if offset is None else offset
+        if len(offset) != system.nq:
+            raise InputError("Readings.of", "length of offset", len(offset), f"{system.nq}")
+        return cls(none if noise is None else noise, offset, delay)
+
+
+def readings_for(system: ArmSystem, given: Readings | None) -> Readings:
+    """What a run reads: without errors unless given, and never of another number of pairs or
+    joints, which a kernel would look for beyond the end of the arrays.
+
+    Raises
+    ------
+    InputError
+        Readings that do not fit the system.
+    """
+    if given is None:
+        return Readings.of(system)
+    found, pairs = Readings.of(system, **given._asdict()), len(system.arrays.pairs)
+    if len(found.noise) and found.noise.shape[1] != pairs:
+        expected = f"(steps, {pairs}), one for each watched pair"
+        raise InputError("Readings", "shape of noise", found.noise.shape, expected)
+    return found
 
 
 @kernel

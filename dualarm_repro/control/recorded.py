@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import checked
+from ..arguments import Count, checked
 from .circle import Circles
 from .controller import VelocityController
 from .motion import Motion
@@ -16,7 +16,7 @@ from .system import ArmSystem
 
 @checked
 def recorded_problems(
-    system: ArmSystem, circles: Circles, motion: Motion, settings: ControllerSettings, every: int
+    system: ArmSystem, circles: Circles, motion: Motion, settings: ControllerSettings, every: Count
 ) -> list[QuadraticProgram]:
     """The problem of each ``every``-th step of a motion."""
     controller = VelocityController(system, settings, home=motion.q[0])

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked
+from ..arguments import Shape, checked
 from ..errors import InputError
 from .assembly import make_buffers, stated_in
 from .circle import Circles
 from .closed_loop import DONE, Ending, Run, make_run, run_exact, take
 from .few_constraints import make_work
 from .motion import Motion
-from .readings import Readings
+from .readings import Readings, readings_for
 from .settings import ControllerNumbers, ControllerSettings
 from .solvers import second_opinion
 from .system import ArmSystem
@@ -21,6 +23,8 @@ from .system import ArmSystem
 MOST_STEPS = 2_000_000
 #: Disturbance of a run without any.
 UNDISTURBED = np.empty((0, 0))
+#: Added to the rates of a network with n joints and m task rows, (steps, n + m).
+Disturbance = Annotated[np.ndarray, Shape("T", "n + m")]
 _PORTION = 2000  # steps between which a run can be stopped, tens of milliseconds
 #: Weight of the slack on the task against |x|^2 / 2.
 SLACK_WEIGHT = 1e4
@@ -65,7 +69,7 @@ def simulate(
     """
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     weights = slack_weight if slack else 0.0, smoothing
-    readings = readings or Readings.of(system)
+    readings = readings_for(system, readings)
     arrays, run = system.arrays, make_run(system.nq, len(system.arms), q0, steps)
     buffers = make_buffers(arrays, numbers)
     work = make_work(system.nq, 3 * len(system.arms), len(buffers.program.h))
@@ -110,6 +114,21 @@ def checked_run(
         raise InputError("simulate", "dt", dt, f"a step with at most {MOST_STEPS} in all")
     steps = round(cycles * circles.duration / dt)
     return system.configuration(q0), settings.numbers(), steps
+
+
+def require_states(
+    source: str,
+    system: ArmSystem,
+    disturbance: np.ndarray = UNDISTURBED,
+    y0: np.ndarray | None = None,
+) -> None:
+    """Refuse a disturbance (steps, n + m) or a first state (n + m,) of a network for another number
+    of joints n and task rows m than a system has."""
+    size = system.nq + 3 * len(system.arms)
+    if len(disturbance) and disturbance.shape[1] != size:
+        raise InputError(source, "shape of disturbance", disturbance.shape, f"(steps, {size})")
+    if y0 is not None and y0.shape != (size,):
+        raise InputError(source, "shape of y0", y0.shape, f"({size},)")
 
 
 def truncated(system: ArmSystem, dt: float, status: int, taken: int, run: Run) -> Motion:

@@ -8,7 +8,7 @@ are stored the closure of what it depends on and a hash of the table itself.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..datafiles import data_path, opened
-from ..errors import DataFileError, LedgerError
+from ..errors import DataFileError, InputError, LedgerError
 from ..tracking import note, recording
 from .closure import closure, hash_file, hash_inputs
 from .comparison import Comparison
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
     from .registry import Registry
 
-_CHUNKS = 64
+#: Parts of a study that are handed out; a worker may wait for one at the end, so they are small.
+_CHUNKS = 256
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,9 @@ class Study:
         Packages of others that some columns are computed with, with the prefix of those columns.
     also
         Modules that it depends on beside the closure of ``compute`` and ``cells``.
+    dearest
+        Numbers of cells that workers get first, where a few take so long that one worker would be
+        left with the last of them.
     """
 
     name: str
@@ -87,6 +91,7 @@ class Study:
     certificate: Callable[[Mapping[str, Any], Mapping[str, Any]], Mapping[str, Any]] | None = None
     peers: Mapping[str, str] = field(default_factory=dict)
     also: tuple[str, ...] = ()
+    dearest: tuple[int, ...] = ()
     registry: Registry | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -151,9 +156,9 @@ class Study:
         cells = self.cells()
         key = self.code["digest"][:16]
         folder = (scratch or Path("_build") / "studies") / f"{self.name}-{key}"
-        chunks = np.array_split(np.arange(len(cells)), min(_CHUNKS, len(cells)))
-        kept = {k: _read_chunk(_chunk_path(folder, chunk)) for k, chunk in enumerate(chunks)}
-        missing = [k for k, rows in kept.items() if rows is None]
+        chunks = parts(len(cells))
+        kept = {k: _read_chunk(folder, chunk) for k, chunk in enumerate(chunks)}
+        missing = [k for k in self.handed_out(chunks) if kept[k] is None]
         tasks = ((self._chunk, chunks[k], [cells[i] for i in chunks[k]]) for k in missing)
         made = results(tasks, len(missing), self.name, jobs, progress, scheduler)
         for k, (rows, inputs) in zip(missing, made, strict=True):
@@ -179,6 +184,17 @@ class Study:
         for chunk in chunks:  # another run of the same study may remove them too
             _chunk_path(folder, chunk).unlink(missing_ok=True)
         return table
+
+    def handed_out(self, chunks: Sequence[np.ndarray]) -> list[int]:
+        """Positions of these chunks in the order in which workers get them."""
+        beyond = [cell for cell in self.dearest if cell >= sum(map(len, chunks))]
+        if beyond:
+            raise InputError(f"study {self.name}", "dearest", beyond, "numbers of its cells")
+        rank = {cell: place for place, cell in enumerate(self.dearest)}
+        return sorted(
+            range(len(chunks)),
+            key=lambda k: min(rank.get(i, len(rank)) for i in chunks[k].tolist()),
+        )
 
     def _known(self) -> Registry:
         from .registry import REGISTRY
@@ -270,6 +286,11 @@ class Study:
         return json.loads(to_json(rows)), sorted(inputs)
 
 
+def parts(count: int) -> list[np.ndarray]:
+    """Numbers of the cells that a worker gets at a time, of so many in all."""
+    return np.array_split(np.arange(count), min(_CHUNKS, count))
+
+
 def _whole(meta: Mapping[str, Any]) -> bool:
     """Whether a record of a study has what its readers take from it, in the form they expect."""
     code, cells = meta.get("code"), meta.get("cells")
@@ -286,12 +307,16 @@ def _chunk_path(folder: Path, chunk: np.ndarray) -> Path:
     return folder / f"{chunk[0]:06d}.json"
 
 
-def _read_chunk(path: Path) -> dict[str, Any] | None:
+def _read_chunk(folder: Path, chunk: np.ndarray) -> dict[str, Any] | None:
+    """What was kept of these cells, and of no more or fewer of them."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        found = json.loads(_chunk_path(folder, chunk).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return found if isinstance(found, dict) and {"rows", "inputs"} <= found.keys() else None
+    if not isinstance(found, dict) or not {"rows", "inputs"} <= found.keys():
+        return None
+    rows = found["rows"]
+    return found if isinstance(rows, list) and len(rows) == len(chunk) else None
 
 
 def _flat(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:

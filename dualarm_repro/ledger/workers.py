@@ -42,6 +42,9 @@ def results(
 ) -> Iterator[Any]:
     """The results of ``function(a, b)`` for every task, in the order of the tasks.
 
+    A worker of this machine gets its next task when it has done the one before: joblib would put
+    short ones into batches of up to 2 s, and at the end one worker would wait for another.
+
     Parameters
     ----------
     jobs
@@ -64,7 +67,7 @@ def results(
         # joblib renews a worker whose memory has grown; no task is lost, so the user need not know.
         filterwarnings("ignore", "A worker stopped while some jobs", UserWarning)
         with deaf():
-            done = Parallel(n_jobs=jobs, return_as="generator")(calls)
+            done = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)(calls)
         yield from tqdm(done, total=count, desc=title, disable=not progress)
         return
     try:

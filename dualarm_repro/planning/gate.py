@@ -7,10 +7,12 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import product
+from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 
-from ..arguments import checked
+from ..arguments import LATER, checked
 from ..arms.exclusions import shape_of
 from ..errors import InputError
 from ..scene import JointPath, PlacedArm, Scene, distances
@@ -28,10 +30,10 @@ _TOLERANCE = 1e-3  # [m], of no weight at a single posture
 
 @checked
 def require_sound(
-    source: object,
+    source: Path | str,
     scene: Scene,
-    starts: Mapping[str, np.ndarray],
-    goals: Mapping[str, np.ndarray],
+    starts: Mapping[str, Annotated[np.ndarray, LATER]],
+    goals: Mapping[str, Annotated[np.ndarray, LATER]],
     allow_collision: bool = False,
 ) -> None:
     """Raise if an arm may not start where it is to start, or may not end where it is to end.

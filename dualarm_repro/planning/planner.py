@@ -14,7 +14,7 @@ from typing import Annotated, Protocol
 import numpy as np
 from pydantic import Field
 
-from ..arguments import LATER, checked
+from ..arguments import FILLED, LATER, Number, Shape, checked
 from ..errors import InputError
 from ..scene import JointPath, MovingArm, Scene, distances
 from ..scene.clearance import Clearance
@@ -60,7 +60,7 @@ class FoundPath:
     A planner that did not arrive gives the path as far as it came, at least the start.
     """
 
-    path: np.ndarray
+    path: Annotated[np.ndarray, Shape("N", "nq"), FILLED]
     reason: str
 
     @property
@@ -89,7 +89,7 @@ class PathProblem:
     start: Annotated[np.ndarray, LATER]
     goal: Annotated[np.ndarray, LATER]
     settings: PlannerSettings = field(default_factory=PlannerSettings)
-    evaluations: int = 0
+    evaluations: Number = 0
 
     def __post_init__(self) -> None:
         self.start = self.scene.configurations(self.start)
@@ -149,7 +149,7 @@ class PathProblem:
                 raise InputError(method, "moving", name, "a scene in which only the arms move")
 
     @checked
-    def without(self, others: dict[str, np.ndarray]) -> PathProblem:
+    def without(self, others: dict[str, Annotated[np.ndarray, LATER]]) -> PathProblem:
         """The same for fewer arms: ``others`` (nq,) [rad] stand where it says."""
         scene = self.scene
         for name, q in others.items():

@@ -14,7 +14,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import OPEN, Count, Positive, checked
+from ..arguments import INFINITE, Count, Positive, checked
 from ..arms.arm import Arm
 from ..arms.exclusions import shape_of
 from ..arms.fit.triangles import PRISM
@@ -49,7 +49,7 @@ def certified_minimum(
     path: ArrayLike,
     index: ArrayLike | None = None,
     tolerance: Positive = 1e-3,
-    enough: Annotated[float, OPEN] = np.inf,
+    enough: Annotated[float, INFINITE] = np.inf,
     budget: Count = 200_000,
 ) -> Bracket:
     """Bounds on min over s of min over pairs of d(q(s), t(s)) for a path linear between samples.

@@ -103,22 +103,23 @@ def _fill(
         placed = place(scene, q[block], time[block])
         cores, start = (placed.cores, bodies.radius), 0
         for sort, pairs in rows.items():
+            if not len(pairs):
+                continue
             columns = slice(start, start + len(pairs))
             start = columns.stop
-            out = distance[block, columns]
-            points = witness[block, columns]
+            into = (pairs, distance[block], witness[block], columns.start)
             match sort:
                 case "capsule":
-                    capsules_capsules(*cores, pairs, out, points)
-                    refine(scene, q[block], out, points)
+                    capsules_capsules(*cores, *into)
+                    refine(scene, q[block], distance[block, columns], witness[block, columns])
                 case "box":
-                    capsules_boxes(*cores, placed.boxes, bodies.half, pairs, out, points)
+                    capsules_boxes(*cores, placed.boxes, bodies.half, *into)
                 case "plane":
-                    capsules_planes(*cores, bodies.planes, pairs, out, points)
+                    capsules_planes(*cores, bodies.planes, *into)
                 case "hull":
                     for j, hull in enumerate(bodies.hulls):
                         at = (placed.hulls, hull.polytope, j)
-                        capsules_hull(*cores, *at, pairs, out, points)
+                        capsules_hull(*cores, *at, *into)
 
 
 def blocks(count: int, size: int) -> Iterator[slice]:

@@ -57,15 +57,15 @@ def signed_distance(a: Annotated[Shape, LATER], b: Annotated[Shape, LATER]) -> W
     match b:
         case Sphere() | Capsule():
             ends, radius = np.stack([a.core, b.core])[np.newaxis], np.array([a.radius, b.radius])
-            capsules_capsules(ends, radius, _PAIR, distance, witness)
+            capsules_capsules(ends, radius, _PAIR, distance, witness, 0)
         case Box():
             boxes = b.pose[np.newaxis, np.newaxis], b.half[np.newaxis]
-            capsules_boxes(ends, radius, *boxes, _FIRST, distance, witness)
+            capsules_boxes(ends, radius, *boxes, _FIRST, distance, witness, 0)
         case HalfSpace():
-            capsules_planes(ends, radius, b.plane[np.newaxis], _FIRST, distance, witness)
+            capsules_planes(ends, radius, b.plane[np.newaxis], _FIRST, distance, witness, 0)
         case ConvexHull():
             pose = np.eye(3, 4)[np.newaxis, np.newaxis]
-            capsules_hull(ends, radius, pose, b.polytope, 0, _FIRST, distance, witness)
+            capsules_hull(ends, radius, pose, b.polytope, 0, _FIRST, distance, witness, 0)
         case _:
             raise not_a_shape("signed_distance", b, "b")
     return Witness(float(distance[0, 0]), *witness[0, 0])

@@ -16,9 +16,17 @@ from numba.extending import intrinsic
 
 from ..kernel import inlined, kernel
 from .boxes import segment_box_distance
-from .lane_distances import LANES, _clamp, _core, _gap, near_point
-from .polytope import Polytope, segment_polytope
-from .vectors import into_frame, rotated_back
+from .lane_distances import (
+    LANES,
+    clamped,
+    core_of,
+    near_box,
+    near_point,
+    solid_of,
+    squared_gap,
+)
+from .polytope import segment_polytope
+from .vectors import into_frame, rotated_back, vector
 
 _X, _Y, _Z, _U, _V, _W = (k * LANES for k in range(6))
 
@@ -38,8 +46,8 @@ _lowest: Any = intrinsic(_lowest_bit)
 def _verdict(square, apart, way):
     """Bits 0 and LANES of a lane from a squared distance."""
     need = apart + way
-    contact = (1 << LANES) if square <= apart * apart else 0
-    return (1 if square <= need * need else 0) | contact
+    contact = 0 if square > apart * apart else (1 << LANES)
+    return (0 if square > need * need else 1) | contact
 
 
 @kernel
@@ -51,7 +59,7 @@ def near_spheres(ends, a, b, apart, travel, from_a, from_b):
         y = ends[b, _Y + k] - ends[a, _Y + k]
         z = ends[b, _Z + k] - ends[a, _Z + k]
         need = apart + (travel[a, from_a, k] + travel[b, from_b, k])
-        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+        near |= (0 if x * x + y * y + z * z > need * need else 1) << k
     return near
 
 
@@ -64,7 +72,7 @@ def near_standing(ends, a, stands, b, apart, travel):
         y = stands[b, 1] - ends[a, _Y + k]
         z = stands[b, 2] - ends[a, _Z + k]
         need = apart + travel[a, 0, k]
-        near |= (1 if x * x + y * y + z * z <= need * need else 0) << k
+        near |= (0 if x * x + y * y + z * z > need * need else 1) << k
     return near
 
 
@@ -120,7 +128,7 @@ def queue_verdict(queue, owner, count):
 def _row_verdict(queue, owner, n):
     found = 0
     for k in range(LANES):
-        square = _gap(
+        square = squared_gap(
             queue[n, 0, k],
             queue[n, 1, k],
             queue[n, 2, k],
@@ -146,7 +154,7 @@ def ball_verdict(ends, a, stands, b, extent, apart, travel):
     for k in range(LANES):
         x, y, z = p0 - ends[a, _X + k], p1 - ends[a, _Y + k], p2 - ends[a, _Z + k]
         u, v, w = ends[a, _U + k], ends[a, _V + k], ends[a, _W + k]
-        s = _clamp((x * u + y * v + z * w) * inverse)
+        s = clamped((x * u + y * v + z * w) * inverse)
         x, y, z = x - s * u, y - s * v, z - s * w
         found |= _verdict(x * x + y * y + z * z, apart, travel[a, 0, k]) << k
     return found
@@ -161,33 +169,22 @@ def plane_verdict(a, plane, apart, ways):
         height = n0 * a[_X + k] + n1 * a[_Y + k] + n2 * a[_Z + k] - offset
         lean = n0 * a[_U + k] + n1 * a[_V + k] + n2 * a[_W + k]
         low = height - abs(lean) - apart
-        contact = (1 << LANES) if low <= 0.0 else 0
-        found |= ((1 if low <= ways[k] else 0) | contact) << k
+        contact = 0 if low > 0.0 else (1 << LANES)
+        found |= ((0 if low > ways[k] else 1) | contact) << k
     return found
 
 
 @kernel
 def box_verdict(a, pose, half, extent, apart, ways):
     """A capsule and a box: exactly where the sphere around the capsule does not tell."""
-    near, found = 0, 0
-    p0, p1, p2, h0, h1, h2 = pose[0, 3], pose[1, 3], pose[2, 3], half[0], half[1], half[2]
-    r00, r10, r20 = pose[0, 0], pose[1, 0], pose[2, 0]
-    r01, r11, r21 = pose[0, 1], pose[1, 1], pose[2, 1]
-    r02, r12, r22 = pose[0, 2], pose[1, 2], pose[2, 2]
-    for k in range(LANES):
-        x, y, z = a[_X + k] - p0, a[_Y + k] - p1, a[_Z + k] - p2
-        e = max(abs(r00 * x + r10 * y + r20 * z) - h0, 0.0)
-        f = max(abs(r01 * x + r11 * y + r21 * z) - h1, 0.0)
-        g = max(abs(r02 * x + r12 * y + r22 * z) - h2, 0.0)
-        need = apart + extent + ways[k]
-        near |= (1 if e * e + f * f + g * g <= need * need else 0) << k
+    near, found = near_box(a, pose, half, apart + extent, 1.0, ways), 0
     if near == 0:
         return 0
     for k in range(LANES):
         if near >> k & 1:
-            start, core = _core(a, k)
+            start, core = core_of(a, k)
             gap = segment_box_distance(
-                into_frame(pose, start), rotated_back(pose, core), (h0, h1, h2)
+                into_frame(pose, start), rotated_back(pose, core), vector(half)
             )
             found |= _gap_verdict(gap, apart, ways[k]) << k
     return found
@@ -199,17 +196,10 @@ def hull_verdict(a, hulls, row, extent, apart, ways):
     near = near_point(a, hulls.around[row], apart + extent + hulls.around[row, 3], 1.0, ways)
     if near == 0:
         return 0
-    first, last, found = hulls.first[row], hulls.first[row + 1], 0
-    polytope = Polytope(
-        hulls.solids.vertices[first[0] : last[0]],
-        hulls.solids.planes[first[1] : last[1]],
-        hulls.solids.corners[first[1] : last[1]],
-        hulls.solids.edges[first[2] : last[2]],
-        hulls.solids.normals[first[2] : last[2]],
-    )
+    found, polytope = 0, solid_of(hulls, row)
     for k in range(LANES):
         if near >> k & 1:
-            start, core = _core(a, k)
+            start, core = core_of(a, k)
             gap = segment_polytope(start, core, polytope)[0]
             found |= _gap_verdict(gap, apart, ways[k]) << k
     return found
@@ -218,4 +208,4 @@ def hull_verdict(a, hulls, row, extent, apart, ways):
 @inlined
 def _gap_verdict(gap, apart, way):
     """Bits 0 and LANES of a lane from a distance, which may be negative."""
-    return (1 if gap <= apart + way else 0) | ((1 << LANES) if gap <= apart else 0)
+    return (0 if gap > apart + way else 1) | (0 if gap > apart else (1 << LANES))

@@ -147,9 +147,9 @@ def always_overlapping(arm: Arm) -> np.ndarray:
     links = links_of(arm)
     count = len(links.radius)
     ends = cores_in(frames_of(arm, np.eye(3, 4), q), links.joint, links.local)
-    rows = np.argwhere(np.ones((count, count), dtype=bool))
+    rows = np.ascontiguousarray(np.argwhere(np.ones((count, count), dtype=bool)))
     distance = np.empty((SAMPLES, len(rows)))
-    capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)))
+    capsules_capsules(ends, links.radius, rows, distance, np.empty((0, 0, 3, 3)), 0)
     return (distance < 0).all(axis=0).reshape(count, count)
 
 

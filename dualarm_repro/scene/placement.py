@@ -63,4 +63,4 @@ def _frames(arm: Arm, base: pin.SE3, q: np.ndarray) -> np.ndarray:
 def _place_links(arm: Arm, frames: np.ndarray, cores: np.ndarray, rows: list[int]) -> None:
     if rows:
         links = links_of(arm)
-        place_cores(frames, links.joint, links.local, cores[:, rows[0] : rows[-1] + 1])
+        place_cores(frames, links.joint, links.local, cores, rows[0])

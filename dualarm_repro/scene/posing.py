@@ -12,7 +12,7 @@ from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
 from ..arms.chain import SlidingChain
 from ..arms.sliding import sliding_frames
-from ..kernel import kernel
+from ..kernel import inlined, kernel
 from ..tracking import kept_with_owner
 
 
@@ -96,7 +96,7 @@ def link_frames(chain, base, q):
 @kernel
 def set_frames(chain, base, q, frames):
     """The frames (n+1, 3, 4) of one configuration (n,) into ``frames``."""
-    frames[0] = base
+    copy_frame(base, frames[0])
     for j in range(len(q)):
         s, c = np.sin(q[j]), np.cos(q[j])
         C, t = chain.rotation[j], chain.translation[j]
@@ -109,20 +109,30 @@ def set_frames(chain, base, q, frames):
             frames[j + 1, r, 3] = a * t[0] + b * t[1] + d * t[2] + frames[j, r, 3]
 
 
+@inlined
+def copy_frame(frame, out):
+    """A frame (3, 4) into ``out``; an assignment of slices is compiled with the text of its error,
+    for seconds."""
+    for r in range(3):
+        for k in range(4):
+            out[r, k] = frame[r, k]
+
+
 def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:
     """The ends (N, C, 2, 3) that :func:`place_cores` fills."""
     ends = np.empty((len(frames), *local.shape))
-    place_cores(frames, joint, local, ends)
+    place_cores(frames, joint, local, ends, 0)
     return ends
 
 
 @kernel
-def place_cores(frames, joint, local, ends):
-    """ends (N, C, 2, 3) = F_joint local, for frames (N, J, 3, 4) and local cores (C, 2, 3)."""
+def place_cores(frames, joint, local, ends, row):
+    """ends = F_joint local, for frames (N, J, 3, 4) and local cores (C, 2, 3), into C rows of
+    ``ends`` (N, R, 2, 3) from ``row`` on."""
     for n in range(len(frames)):
         for c in range(len(joint)):
             F = frames[n, joint[c]]
             for k in range(2):
                 x, y, z = local[c, k]
                 for r in range(3):
-                    ends[n, c, k, r] = F[r, 0] * x + F[r, 1] * y + F[r, 2] * z + F[r, 3]
+                    ends[n, row + c, k, r] = F[r, 0] * x + F[r, 1] * y + F[r, 2] * z + F[r, 3]

@@ -117,7 +117,8 @@ def duration(microseconds: float) -> str:
 
 
 def workers_page(run: BenchmarkRun) -> Page:
-    """Seconds of the same cells of each study by one worker and by more."""
+    """Seconds of each study by one worker and by more, how much CPU time two take of that of one,
+    and how long they start."""
     curve = run.curve("workers")
     if curve is None:
         return not_measured("workers")
@@ -128,4 +129,10 @@ def workers_page(run: BenchmarkRun) -> Page:
     frame = pd.DataFrame(rows).rename(columns={"1 workers [s]": "1 worker [s]"})
     if "2 workers [s]" in frame:
         frame["gain of two"] = frame["1 worker [s]"] / frame["2 workers [s]"]
+        points = [{point.x: point for point in one.points} for one in curve.series]
+        if all(
+            p[2].start_seconds is not None for p in points
+        ):  # else wall time stands for CPU time
+            frame["CPU time of two / one"] = [p[2].cpu_seconds / p[1].cpu_seconds for p in points]
+            frame["start of two [s]"] = [p[2].start_seconds for p in points]
     return table(frame, "{:.2f}")

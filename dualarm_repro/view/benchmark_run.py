@@ -63,12 +63,13 @@ class Different(StrictModel):
 
 
 class Point(StrictModel):
-    """Seconds of a call at one size."""
+    """Seconds of a call at one size, and where others start first, those until they have."""
 
     x: int
     seconds: float
     quartiles: tuple[float, float]
     cpu_seconds: float
+    start_seconds: float | None = None
 
 
 class Series(StrictModel):

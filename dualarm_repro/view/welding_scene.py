@@ -80,7 +80,7 @@ def _nearest(cell: Cell, q: np.ndarray, centre: np.ndarray, frames: np.ndarray) 
     rows, bodies = watched.pairs.rows["capsule"], watched.bodies
     distance = np.empty((len(ends), len(rows)))
     witness = np.empty((*distance.shape, 3, 3))
-    capsules_capsules(ends, bodies.radius, rows, distance, witness)
+    capsules_capsules(ends, bodies.radius, rows, distance, witness, 0)
     return nearest_of(distance, witness[..., 0, :], witness[..., 1, :], watched.pairs.bodies)
 
 

@@ -12,7 +12,7 @@ from ..arguments import Shape, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..errors import InputError, UnknownNameError
-from .cell import WELDER, Cell
+from .cell import ROBOTS, WELDER, Cell
 from .posture import flat_rotations
 from .seam import Seam, saddle_seam
 from .tooling import Torch, grasp_pose, torch_axes, torch_flanges, with_tool
@@ -119,7 +119,7 @@ def base_poses(matrices: Annotated[np.ndarray, Shape("K", 4, 4)], reading: str) 
 @checked
 def assemble(
     arms: Sequence[Arm],
-    bases: np.ndarray,
+    bases: Annotated[np.ndarray, Shape(3, 4, 4)],
     workpiece: Workpiece,
     posture: str,
     tools: Tools,
@@ -153,7 +153,11 @@ def assemble(
     ------
     UnknownNameError
         No such posture, grasp, torch axis or reference.
+    InputError
+        Another number of arms or bases than three.
     """
+    if len(arms) != len(ROBOTS):
+        raise InputError("assemble", "number of arms", len(arms), f"3: {', '.join(ROBOTS)}")
     if reference not in CARRIER_REFERENCES:
         expected = f"one of {', '.join(CARRIER_REFERENCES)}"
         raise UnknownNameError("assemble", "reference", reference, expected)

@@ -75,7 +75,7 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     stride = max(1, poses // _PROBES)
     for p in range(count):
         local[:, :3, 3] = origin + back @ centres[p]
-        probes = inverse_kinematics(geometry, local[::stride], middle, -free, free)
+        probes = inverse_kinematics(geometry, local[::stride].copy(), middle, -free, free)
         if not _any_branch(probes):
             status[p] = 1
             continue

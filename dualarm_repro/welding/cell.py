@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from ..arguments import Vector3, checked
+from ..arguments import Rows3, Shape, Vector3, checked
 from ..arms import Arm
 from ..arms.poses import homogeneous
 from ..arms.wrist_geometry import WristGeometry, wrist_geometry
@@ -68,15 +68,15 @@ class Cell:
     """
 
     arms: tuple[Arm, Arm, Arm]
-    bases: np.ndarray
-    rotations: np.ndarray
-    flanges: np.ndarray
-    references: np.ndarray
-    torch_axis: np.ndarray
-    seam: np.ndarray
-    pipe_axes: np.ndarray
-    pipe_cores: np.ndarray
-    pipe_radii: np.ndarray
+    bases: Annotated[np.ndarray, Shape(3, 4, 4)]
+    rotations: Annotated[np.ndarray, Shape("N", 3, 3)]
+    flanges: Annotated[np.ndarray, Shape(3, "N", 4, 4)]
+    references: Annotated[np.ndarray, Shape(3, "N", 3)]
+    torch_axis: Rows3
+    seam: Rows3
+    pipe_axes: Annotated[np.ndarray, Shape(2, 2, 3)]
+    pipe_cores: Annotated[np.ndarray, Shape("K", 2, 3)]
+    pipe_radii: Annotated[np.ndarray, Shape("K")]
     floor: float | None
     threshold: float
     joint_limits: bool = True
@@ -86,19 +86,6 @@ class Cell:
         count = len(self.rotations)
         if count < 3:
             raise InputError("cell", "seam points", count, "at least 3")
-        shapes = {
-            "bases": (3, 4, 4),
-            "rotations": (count, 3, 3),
-            "flanges": (3, count, 4, 4),
-            "references": (3, count, 3),
-            "torch_axis": (count, 3),
-            "seam": (count, 3),
-            "pipe_axes": (2, 2, 3),
-            "pipe_cores": (len(self.pipe_radii), 2, 3),
-        }
-        for name, shape in shapes.items():
-            if getattr(self, name).shape != shape:
-                raise InputError("cell", f"shape of {name}", getattr(self, name).shape, str(shape))
         found = tuple(wrist_geometry(arm.name, arm.chain) for arm in self.arms)
         object.__setattr__(self, "geometries", found)
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..annotation import real_array
 from ..arguments import LATER, checked
-from ..errors import InputError, UnknownNameError
+from ..errors import DualArmError, InputError, UnknownNameError
 from .generation import next_generation, pointed_at, ranked
 
 Fitness = Callable[[np.ndarray], np.ndarray]
@@ -296,9 +296,17 @@ def rated(fitness: Fitness, individuals: np.ndarray) -> np.ndarray:
     Raises
     ------
     InputError
-        What the fitness gives is no finite number each, which would rank as anything.
+        What the fitness gives is no finite number each, which would rank as anything; or it cannot
+        be computed, for one because the box has another number of rows than it has variables.
     """
-    values, expected = fitness(individuals), f"{len(individuals)} finite numbers"
+    expected = f"{len(individuals)} finite numbers"
+    try:
+        values = fitness(individuals)
+    except DualArmError:
+        raise
+    except Exception as error:
+        field, kind = f"fitness of {individuals.shape}", type(error).__name__
+        raise InputError("search", field, f"{kind}: {error}", expected) from error
     array = np.asarray(values)
     if array.shape != (len(individuals),) or array.dtype.kind not in "fiu":
         raise InputError("search", "fitness", values, expected)
@@ -315,12 +323,12 @@ def checked_box(box: np.ndarray) -> np.ndarray:
     InputError
         See :func:`evolve`.
     """
-    expected = "finite rows [lower, upper], lower < upper"
+    expected = "at least one finite row [lower, upper], lower < upper"
     try:
         array = real_array(box)
     except (TypeError, ValueError):
         raise InputError("search", "box", box, expected) from None
     good = array.ndim == 2 and array.shape[1:] == (2,) and np.isfinite(array).all()
-    if not good or (array[:, 0] >= array[:, 1]).any():
+    if not good or not len(array) or (array[:, 0] >= array[:, 1]).any():
         raise InputError("search", "box", array.tolist(), expected)
     return array

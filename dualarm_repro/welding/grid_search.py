@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..arguments import MOST, Count, Positive, checked
+from ..arguments import LATER, MOST, Count, Positive, Shape, checked
 from ..errors import InputError
 from .genetic import Fitness, checked_box, rated
 
@@ -105,11 +105,11 @@ def refined(
 @checked
 def grid_optimum(
     fitness: Fitness,
-    box: np.ndarray,
+    box: Annotated[np.ndarray, LATER],
     spacing: Positive,
     starts: Count = 8,
     tolerance: Positive = 1e-5,
-    values: np.ndarray | None = None,
+    values: Annotated[np.ndarray, Shape("P")] | None = None,
 ) -> Optimum:
     """Best point of a grid after refinement of its best cells.
 
@@ -128,10 +128,18 @@ def grid_optimum(
     -------
     Optimum
         Its position is NaN where no point of the grid is of positive fitness.
+
+    Raises
+    ------
+    InputError
+        See :func:`.genetic.evolve`; another number of values than the grid has points.
     """
+    box = checked_box(box)
     points, spent = grid_points(box, spacing), 0
     if values is None:
         values, spent = rated(fitness, points), len(points)
+    elif len(values) != len(points):
+        raise InputError("grid_optimum", "length of values", len(values), f"{len(points)}")
     cells = best_cells(points, values, starts, spacing)
     end = refined(fitness, cells, box, 0.5 * spacing, tolerance)
     return end._replace(evaluations=end.evaluations + spent)

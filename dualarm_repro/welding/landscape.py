@@ -11,9 +11,9 @@ from ..arms.wrist_ik import inverse_kinematics
 from ..errors import UnknownNameError
 from .branches import Status
 from .cell import WELDER, Cell
-from .genetic import Fitness
+from .genetic import Fitness, checked_box
 from .grid_search import Optimum, best_cells, grid_points, refined
-from .placement import Placement, blocks
+from .placement import Placement, Region, blocks
 
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 _SAME = 1e-6  # relative difference of the fitness of two mirror images
@@ -38,7 +38,7 @@ class Survey(NamedTuple):
 
 
 @checked
-def survey(placement: Placement, box: np.ndarray, spacing: Positive) -> Survey:
+def survey(placement: Placement, box: Region, spacing: Positive) -> Survey:
     """Fitness and constraints on the :func:`.grid_search.grid_points` of the region."""
     points, rated = grid_points(box, spacing), []
     for block in blocks(points):
@@ -76,7 +76,7 @@ def reaches_point(cell: Cell, centres: np.ndarray, point: int) -> np.ndarray:
 @checked
 def extreme_position(
     placement: Placement,
-    box: np.ndarray,
+    box: Region,
     rule: str,
     *,
     spacing: Positive,
@@ -121,6 +121,7 @@ def extreme_position(
             values[jobs.feasible] = EXTREMES[rule](part.w, placement.measures(part).system)
         return values
 
+    box = checked_box(box)
     points = grid_points(box, spacing) if known is None else known.points
     if known is not None:
         points = points[np.isin(known.status, (Status.FEASIBLE, Status.SINGULAR))]

@@ -18,6 +18,8 @@ from .cell import Cell
 from .objective import Measures, Objective, inverse_volumes
 from .separation import Separation
 
+#: Where a workpiece may be placed: lower and upper bounds of its position (3, 2) [m].
+Region = Annotated[np.ndarray, Shape(3, 2)]
 _BLOCK = 64
 
 

@@ -95,15 +95,14 @@ class Separation:
         ends = np.empty((len(q), len(self.bodies.radius), 2, 3))
         for k, arm in enumerate(cell.arms):
             links = links_of(arm)
-            stop = start + len(links.radius)
             base = np.ascontiguousarray(cell.bases[k][:3])
             frames = link_frames(arm.chain, base, np.ascontiguousarray(q[:, k]))
-            place_cores(frames, links.joint, links.local, ends[:, start:stop])
-            start = stop
+            place_cores(frames, links.joint, links.local, ends, start)
+            start += len(links.radius)
         piece = np.empty((len(q), 1, 3, 4))
         piece[:, 0, :, :3], piece[:, 0, :, 3] = rotations, centres
         carried = np.zeros(len(cell.pipe_cores), dtype=int)
-        place_cores(piece, carried, cell.pipe_cores, ends[:, start:])
+        place_cores(piece, carried, cell.pipe_cores, ends, start)
         return ends
 
     @checked
@@ -111,9 +110,10 @@ class Separation:
         """Signed distance of every pair in the order of ``pairs``, (M, C, 2, 3) -> (M, K) [m]."""
         bodies, rows = self.bodies, self.pairs.rows
         distance = np.empty((len(ends), len(self.pairs)))
-        between, above = np.split(distance, [len(rows["capsule"])], axis=1)
-        capsules_capsules(ends, bodies.radius, rows["capsule"], between, _NO_WITNESS)
-        capsules_planes(ends, bodies.radius, bodies.planes, rows["plane"], above, _NO_WITNESS)
+        between, above = rows["capsule"], rows["plane"]
+        capsules_capsules(ends, bodies.radius, between, distance, _NO_WITNESS, 0)
+        at = (bodies.planes, above, distance, _NO_WITNESS, len(between))
+        capsules_planes(ends, bodies.radius, *at)
         return distance
 
     @checked

@@ -11,7 +11,7 @@ from ..arguments import checked
 from . import genetic
 from .genetic import Generation, GeneticSettings, Search
 from .objective import Measures
-from .placement import Jobs, Placement
+from .placement import Jobs, Placement, Region
 
 
 @dataclass
@@ -53,7 +53,7 @@ class Trace:
 
 @checked
 def watch(
-    placement: Placement, box: np.ndarray, settings: GeneticSettings, rng: np.random.Generator
+    placement: Placement, box: Region, settings: GeneticSettings, rng: np.random.Generator
 ) -> Trace:
     """One run of the search, the state looked at before and after every act.
 

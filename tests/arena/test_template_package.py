@@ -10,6 +10,8 @@ from zipfile import ZipFile
 
 import pytest
 
+from dualarm_repro.cli import main
+
 TEMPLATE = Path(__file__).parents[2] / "examples" / "planner_package"
 NAME = "straight-line"
 
@@ -61,9 +63,12 @@ def test_arena_judges_it(dualarm):
     assert row["share"] == row["claimed"] == row["arrives, collides"] == 0
 
 
-def test_without_it_the_name_is_refused_in_one_line():
-    command = [sys.executable, "-m", "dualarm_repro.cli", "arena", "--method", NAME]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
-    assert NAME in done.stderr
+def test_without_it_the_name_is_refused_in_one_line(monkeypatch, capsys):
+    """In this process, which has not installed it."""
+    monkeypatch.setattr(sys, "argv", ["dualarm", "arena", "--method", NAME])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    told = capsys.readouterr().err
+    assert ended.value.code == 2
+    assert told.count("\n") == 1
+    assert NAME in told

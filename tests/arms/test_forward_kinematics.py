@@ -7,6 +7,7 @@ import sympy as sp
 from example_robot_data import getModelPath
 from hypothesis import given
 from hypothesis import strategies as st
+from long_tests import long_where
 from numpy.testing import assert_allclose
 
 from dualarm_repro.arms import arm_names, load_arm
@@ -47,7 +48,10 @@ def test_link_transforms_multiply_to_the_pose(name):
     assert not arm.symbolic_fk().has(sp.Float), "lengths and angles stay exact"
 
 
-@pytest.mark.parametrize("name", ["es165d", "irb120", "er16", "kr16-2", "irb2400", "panda", XARM7])
+@pytest.mark.parametrize(
+    "name",
+    long_where(XARM7.__eq__, ["es165d", "irb120", "er16", "kr16-2", "irb2400", "panda", XARM7]),
+)
 def test_kernels_agree_with_pinocchio_on_many_configurations(name, rng):
     arm = any_arm(name)
     q = rng.uniform(-2 * np.pi, 2 * np.pi, (10_000, arm.nq))

@@ -158,3 +158,12 @@ def test_wrong_input(change, field):
     assert caught.value.field == field
     with pytest.raises(InputError):
         voxel_volume(np.zeros((1, 3)), [0.0])
+
+
+@pytest.mark.parametrize("points", [np.empty((0, 3)), np.zeros(3), np.zeros((4, 2))])
+def test_a_cloud_has_points(points):
+    line = r"points \(its shape\) = .*: expected finite numbers \(N, 3\), not empty"
+    with pytest.raises(InputError, match=f"extents: {line}"):
+        extents(points)
+    with pytest.raises(InputError, match=f"voxel_volume: {line}"):
+        voxel_volume(points, [0.1])

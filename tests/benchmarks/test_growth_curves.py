@@ -92,39 +92,59 @@ def test_the_first_series_of_a_curve_is_ours(name):
 
 @pytest.fixture
 def study_of(monkeypatch):
-    """A study of fifty cells that take so long [s], and the numbers of those that are computed."""
+    """A study of cells that take so long [s], and the numbers of those that are computed."""
 
-    def use(seconds):
+    def use(count, seconds):
         computed, now = [], [0.0]
 
         def cell(k, _):
-            now[0] += seconds
+            now[0] += seconds(k)
             computed.append(k)
 
-        study = SimpleNamespace(name="toy", cells=lambda: [{}] * 50, cell=cell)
+        study = SimpleNamespace(
+            name="toy",
+            cells=lambda: [{}] * count,
+            cell=cell,
+            handed_out=lambda chunks: [*range(1, len(chunks)), 0],
+        )
         monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies={"toy": study}))
         monkeypatch.setattr(workers, "perf_counter", lambda: now[0])
-        monkeypatch.setattr(workers, "sleep", lambda _: None)
+        monkeypatch.setattr(workers, "process_time", lambda: 3.0 * now[0])
         return study, computed
 
     return use
 
 
-def test_few_cells_of_a_dear_study_are_drawn_and_each_is_computed_twice(study_of):
-    study, computed = study_of(5.0)
-    drawn, order = workers.drawn("toy"), workers.order_of(study)
-    assert drawn == [5.0, 5.0]
+def test_a_sample_of_a_study_is_scaled_to_the_whole_and_nothing_is_computed_twice(study_of):
+    study, computed = study_of(1000, lambda k: 0.05)
+    costs = workers.sampled("toy")
+    sample = workers.drawn_parts(study)[: len(costs)]
+    assert workers.SECONDS < sum(costs) < workers.SECONDS + 0.3
     computed.clear()
-    assert workers.spent("toy", 1, drawn)["seconds"] == 20.0
-    assert sorted(computed) == sorted([order[0], *order[:2] * 2])
+    found = workers.waited("toy", 1, costs)
+    assert found["seconds"] == pytest.approx(50.0)
+    assert found["cpu_seconds"] == pytest.approx(150.0)
+    assert found["start_seconds"] >= 0.0
+    warm = computed[: 2 * len(sample[0])]
+    assert warm == 2 * [k for k, _ in sample[0]]
+    assert sorted(computed[len(warm) :]) == sorted(k for part in sample for k, _ in part)
 
 
-def test_no_cell_is_computed_again_where_there_are_enough(study_of):
-    computed = study_of(0.2)[1]
-    drawn = workers.drawn("toy")
+def test_the_dearest_parts_of_a_sample_are_handed_out_first(study_of):
+    _, computed = study_of(100, lambda k: 0.1 + 0.01 * k)
+    costs = workers.sampled("toy")
     computed.clear()
-    assert workers.spent("toy", 1, drawn)["seconds"] == pytest.approx(0.2 * len(drawn))
-    assert len({*computed}) == len(computed) == 1 + len(drawn)
+    workers.waited("toy", 1, costs)
+    assert 8 <= len(costs) < 100
+    assert computed[2:] == sorted(computed[2:], reverse=True)
+
+
+def test_a_study_of_few_dear_cells_is_measured_whole_and_in_its_order(study_of):
+    _, computed = study_of(4, lambda k: 5.0)
+    costs = workers.sampled("toy")
+    computed.clear()
+    assert workers.waited("toy", 1, costs)["seconds"] == 20.0
+    assert computed[2:] == [1, 2, 3, 0]
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():

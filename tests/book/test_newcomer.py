@@ -57,5 +57,9 @@ def test_a_way_that_ends_early_is_seen(walked, monkeypatch, part, instead, missi
     monkeypatch.setattr(newcomer, "_SOON", 300)
     (line,) = walked(card=CARD.replace(part, instead))
     assert line.startswith(missing)
+
+
+def test_a_front_page_that_leads_nowhere_is_seen(walked, monkeypatch):
+    monkeypatch.setattr(newcomer, "_SOON", 300)
     (line,) = walked(front="<p>Nothing</p>")
     assert line.startswith("its cell")

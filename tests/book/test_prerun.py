@@ -1,11 +1,20 @@
 """Pre-execution: which pages are notebooks, what is cached, and that every failure is named."""
 
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
 import prerun
 import pytest
 from jupyter_cache import get_cache
+
+from dualarm_repro.cache_folder import cache_folder
+from dualarm_repro.machine_code import compiled_folder
 
 NOTEBOOK = "---\nfile_format: mystnb\n---\n\n# Page\n\n```{{code-cell}} ipython3\n{code}\n```\n"
 TOC = """format: jb-book
@@ -40,10 +49,79 @@ def test_pages_in_reading_order(book):
 def test_records_and_pictures_of_all_checkers_are_warmed(registry, tmp_path, monkeypatch):
     broken = replace(registry.checkers["xue.eq03"], compute=lambda assumed: 1 / 0)
     monkeypatch.setitem(registry.checkers, "xue.eq03", broken)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(compiled_folder()))  # of machine code, not of records
+    known = cache_folder() / "sources.json"  # else each worker parses every module
+    if known.is_file():
+        shutil.copy2(known, tmp_path)
     monkeypatch.setenv("DUALARM_CACHE", str(tmp_path))
-    prerun.warm(["xue.eq02", "xue.eq03", "xue.tab01"])
+    prerun.warm(["xue.eq04", "xue.eq03", "xue.eq09"])
     for kind in ("records", "pages"):
-        assert {path.stem for path in (tmp_path / kind).iterdir()} == {"xue.eq02", "xue.tab01"}
+        assert {path.stem for path in (tmp_path / kind).iterdir()} == {"xue.eq04", "xue.eq09"}
+
+
+def test_what_begins_at_once_is_of_several_documents():
+    pages = {"a/short": ["a.1"], "a/long": ["a.2", "a.3"], "b/long": ["b.1"], "a/middle": ["a.4"]}
+    costs = {"a.1": 1.0, "a.2": 5.0, "a.3": 4.0, "b.1": 2.0, "a.4": 8.0}
+    assert prerun.in_turn(pages, costs) == [["a.2", "a.3"], ["b.1"], ["a.4"], ["a.1"]]
+    assert prerun.in_turn(pages, {})[1] == ["b.1"], "whatever is known of costs"
+
+
+INTERRUPTED = """
+import pathlib, signal, sys, time
+sys.path.insert(0, {tools!r})
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever is inherited
+import prerun
+
+def compute(drawn, item_ids):
+    pathlib.Path({begun!r}).touch()
+    time.sleep(60)
+
+def begin(*given):
+    if {early}:
+        signal.raise_signal(signal.SIGINT)
+    return in_turn(*given)
+
+in_turn, prerun.in_turn = prerun.in_turn, begin
+prerun._compute = compute
+sys.argv = ["prerun.py", "--records"]
+print("begun", flush=True)
+sys.exit(prerun.process())
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize("early", [False, True])
+def test_an_interruption_ends_all_without_a_word(tmp_path, early):
+    """While records are computed, or while the workers that compute them begin."""
+    begun = tmp_path / "begun"
+    tools = str(Path(prerun.__file__).parent)
+    program = INTERRUPTED.format(tools=tools, begun=str(begun), early=early)
+    with subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        assert process.stdout.readline() == "begun\n"
+        while not early and not begun.exists() and process.poll() is None:
+            time.sleep(0.05)
+        if not early:
+            os.killpg(process.pid, signal.SIGINT)
+        words = process.communicate(timeout=30)
+    assert (process.returncode, *words) == (130, "", "")
+    assert _ended(process.pid, within=5.0)
+
+
+def _ended(group, within):
+    """Whether no process of a group is left after this time [s]."""
+    for _ in range(int(within / 0.05)):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.05)
+    return False
 
 
 def test_the_key_of_a_page_follows_what_it_shows(tmp_path, monkeypatch):
@@ -75,8 +153,22 @@ def test_the_key_of_a_page_follows_what_it_shows(tmp_path, monkeypatch):
     assert prerun.page_key(page) != key
 
 
+@pytest.fixture
+def executed_at_once(monkeypatch):
+    """Whatever a page is executed by: cells count as executed without a kernel, whose start takes
+    a second; the pool of workers inherits it."""
+
+    def execute(notebook, **_):
+        for cell in notebook.cells:
+            if cell.cell_type == "code":
+                cell.execution_count = 1
+        return notebook
+
+    monkeypatch.setattr("jupyter_cache.executors.utils.executenb", execute)
+
+
+@pytest.mark.usefixtures("executed_at_once")
 def test_only_pages_whose_key_changed_are_executed_again(book, tmp_path, monkeypatch):
-    prerun.isolate_kernels(tmp_path / "ipython")
     (book / "bad" / "page.md").write_text(NOTEBOOK.format(code="print(1)"))
     keys = {"intro": "a", "good": "a", "page": "a"}
     monkeypatch.setattr(prerun, "page_key", lambda page: keys[page.stem])
@@ -89,8 +181,8 @@ def test_only_pages_whose_key_changed_are_executed_again(book, tmp_path, monkeyp
     assert {name for name in after if after[name] != before[name]} == {"good"}
 
 
+@pytest.mark.usefixtures("executed_at_once")
 def test_a_page_that_could_not_be_started_or_stored_is_executed_again(book, tmp_path, monkeypatch):
-    prerun.isolate_kernels(tmp_path / "ipython")
     (book / "bad" / "page.md").write_text(NOTEBOOK.format(code="print(1)"))
     asked, load = [], prerun.load_executor
 

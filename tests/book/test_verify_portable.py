@@ -1,7 +1,6 @@
 """Settings change the machine code that runs, and what moves under one is reported."""
 
 import json
-import subprocess
 import sys
 
 import machine_code
@@ -14,20 +13,21 @@ SETTINGS = {setting.name: setting for setting in settings()}
 PARTS = [name for name in SETTINGS if name not in ("nominal", "everything")]
 
 
+@pytest.fixture(scope="module")
+def here():
+    """The machine code of this process."""
+    return machine_code.probe()
+
+
 @pytest.fixture
 def machine(tmp_path):
     """The machine code that a process under a setting reports, with no item computed."""
     return lambda name: verify_portable.outcomes(SETTINGS[name], [], tmp_path, 0)["machine"]
 
 
-def test_nominal_is_this_process(machine):
-    assert machine("nominal") == machine_code.probe()
-
-
 @pytest.mark.parametrize("name", long_where(lambda name: name not in ("libm", "fused"), PARTS))
-def test_a_part_takes_effect_and_leaves_the_rest(name, machine):
-    here, there = machine_code.probe(), machine(name)
-    setting = SETTINGS[name]
+def test_a_part_takes_effect_and_leaves_the_rest(name, machine, here):
+    there, setting = machine(name), SETTINGS[name]
     assert setting.without_effect(there) == []
     assert {key for key in here if here[key] != there[key]} == set(setting.changes)
     assert setting.without_effect(here)
@@ -42,18 +42,25 @@ def test_everything_takes_effect(machine):
     assert len(set(there["blas"].values())) <= 1
 
 
-def test_both_openblas_are_seen():
+def test_both_openblas_are_seen(here):
     if machine_code.platform.machine() != "x86_64" or sys.platform != "linux":
         pytest.skip("core types of OpenBLAS are read on Linux only")
-    assert set(machine_code.probe()["blas"]) == {"numpy.libs", "scipy.libs"}
+    assert set(here["blas"]) == {"numpy.libs", "scipy.libs"}
     cores = [name for name in SETTINGS if name.startswith("blas-")]
     assert len(cores) == 2
 
 
-def test_a_setting_without_effect_fails(monkeypatch, capsys):
-    idle = Setting("idle", {}, {"numpy": machine_code.probe()["numpy"]})
+def test_without_variables_a_process_is_as_this_one_and_a_setting_fails(monkeypatch, capsys, here):
+    """The nominal process in all but its name, asked for an effect."""
+    assert SETTINGS["nominal"] == Setting("nominal", {}, {})
+    idle = Setting("idle", {}, {"numpy": here["numpy"]})
     monkeypatch.setattr(verify_portable, "settings", lambda: [idle])
+    given, made = verify_portable.outcomes, []
+    monkeypatch.setattr(
+        verify_portable, "outcomes", lambda *asked: made.append(given(*asked)) or made[-1]
+    )
     assert verify_portable.main(["--cells", "0", "xue.eq01"]) == 1
+    assert [one["machine"] for one in made] == [here]
     out = capsys.readouterr().out
     assert "no effect on numpy" in out
     assert "1 checked,   0 drifted,   0 verdicts changed" in out
@@ -69,8 +76,8 @@ def test_drift_and_changed_verdicts_are_counted(monkeypatch, capsys, tmp_path):
     assert "xue.eq01: verdict" in out
 
 
-def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys):
-    machine = {"fused": not machine_code.probe()["fused"]}
+def test_a_cell_of_a_study_that_comes_out_otherwise_fails(monkeypatch, capsys, here):
+    machine = {"fused": not here["fused"]}
     wrong = ["toy cell 1: obtained.x moved"]
     made = {"machine": machine, "items": {}, "cells": 3, "wrong": wrong, "unsettled": []}
     monkeypatch.setattr(verify_portable, "outcomes", lambda *_: made)
@@ -104,17 +111,15 @@ def test_spreads_name_what_moves():
     json.dumps(list(rows))
 
 
-def test_a_process_that_fails_is_reported(tmp_path):
-    with pytest.raises(RuntimeError, match="nominal: the process ended with"):
-        verify_portable.outcomes(SETTINGS["nominal"], ["xue.nothing"], tmp_path, 0)
+def test_a_process_that_fails_is_reported(tmp_path, monkeypatch):
+    monkeypatch.setattr(verify_portable, "ROOT", tmp_path)  # there is nothing to run
+    with pytest.raises(RuntimeError, match="nominal: the process ended with 2"):
+        verify_portable.outcomes(SETTINGS["nominal"], ["xue.eq01"], tmp_path, 0)
 
 
-def test_unknown_setting():
-    done = subprocess.run(
-        [sys.executable, verify_portable.__file__, "--setting", "abacus"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 2
-    assert "no setting ['abacus'] here; there are nominal" in done.stderr
+def test_unknown_setting(monkeypatch, capsys):
+    monkeypatch.setattr(verify_portable, "settings", SETTINGS.values)
+    with pytest.raises(SystemExit) as ended:
+        verify_portable.main(["--setting", "abacus"])
+    assert ended.value.code == 2
+    assert "no setting ['abacus'] here; there are nominal" in capsys.readouterr().err

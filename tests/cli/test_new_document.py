@@ -16,13 +16,20 @@ from dualarm_repro.new_document import new_document
 
 ROOT = Path(__file__).parents[2]
 TITLE = 'On "arms" & <hands>: 50 % of $x_1$, {and} } \\more'
+#: Executes each text alone, as a notebook of its own.
+ALONE = "import sys\nfor cells in sys.argv[1:]: exec(cells, {'__name__': '__main__'})"
 CELL = re.compile(r"^```\{code-cell\} ipython3\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 def copied(folder):
-    """The tree as a newcomer's clone has it."""
+    """The tree as a newcomer's clone has it, once its package has been imported.
+
+    Without its bytecode each process would compile all of it; files that Python is about to rename
+    are none.
+    """
     for part in ("book", "data", "dualarm_repro", "tests", "tools"):
-        copytree(ROOT / part, folder / part, ignore=ignore_patterns("__pycache__"))
+        left = "*.pyc.*" if part == "dualarm_repro" else "__pycache__"
+        copytree(ROOT / part, folder / part, ignore=ignore_patterns(left))
     for path in ROOT.glob("*.*"):
         if path.is_file():
             copy2(path, folder)
@@ -35,9 +42,15 @@ def files(folder):
     return {p: p.read_bytes() for p in folder.rglob("*") if p.is_file() and p.suffix != ".pyc"}
 
 
+def stamps(folder):
+    """When each file was written last, and its size: another as soon as anything is written."""
+    found = [p for p in folder.rglob("*") if p.is_file() and p.suffix != ".pyc"]
+    return {p: (p.stat().st_mtime_ns, p.stat().st_size) for p in found}
+
+
 def run(clone, *command, cwd=None):
     """A command in a process that knows the copy alone."""
-    path = {**os.environ, "PYTHONPATH": str(clone), "PYTHONDONTWRITEBYTECODE": "1"}
+    path = {**os.environ, "PYTHONPATH": str(clone)}
     return subprocess.run(
         [sys.executable, *map(str, command)],
         cwd=cwd or clone,
@@ -52,12 +65,19 @@ def dualarm(clone, *arguments, cwd=None):
 
 
 @pytest.fixture(scope="module")
-def clone(tmp_path_factory):
-    """A clone with a fifth document, written from a folder inside of it."""
+def extended(tmp_path_factory):
+    """A clone with a fifth document, written from a folder inside of it, and what that changed."""
     folder = copied(tmp_path_factory.mktemp("clone"))
+    before = files(folder)
     made = dualarm(folder, "new-document", "smith", "--title", TITLE, cwd=folder / "book")
     assert (made.returncode, made.stderr) == (0, "")
-    return folder
+    after = files(folder)
+    return folder, {p.relative_to(folder): after[p] for p in after if after[p] != before.get(p)}
+
+
+@pytest.fixture(scope="module")
+def clone(extended):
+    return extended[0]
 
 
 @pytest.fixture(scope="module")
@@ -98,10 +118,11 @@ def test_its_pages_are_in_the_book_and_run(clone):
     )
     assert folders[at - 1] in documents
     assert not documents & set(folders[at:]), "after the last page of the documents"
-    for page in ("index", "first"):
-        cells = CELL.findall((clone / f"book/smith/{page}.md").read_text())
-        made = run(clone, "-c", "\n".join(cells))
-        assert made.returncode == 0, made.stderr
+    pages = [(clone / f"book/smith/{page}.md").read_text() for page in ("index", "first")]
+    cells = ["\n".join(CELL.findall(text)) for text in pages]
+    assert all(cells)
+    made = run(clone, "-c", ALONE, *cells)
+    assert made.returncode == 0, made.stderr
 
 
 def test_what_it_writes_is_formatted(clone):
@@ -133,8 +154,8 @@ def test_what_it_writes_is_formatted(clone):
 def test_bad_input_is_one_line_and_writes_nothing(
     request, untouched, monkeypatch, arguments, words
 ):
-    before = files(untouched)
-    if arguments in (["xue"], []):  # as it is typed
+    before = stamps(untouched)
+    if arguments == ["xue"]:  # as it is typed
         made = dualarm(untouched, "new-document", *arguments)
         told = made.returncode, made.stdout, made.stderr
     else:
@@ -143,18 +164,29 @@ def test_bad_input_is_one_line_and_writes_nothing(
     code, out, err = told
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert all(word in err for word in words), err
-    assert files(untouched) == before
+    assert stamps(untouched) == before
 
 
-def test_without_a_clone_around(tmp_path):
-    made = dualarm(ROOT, "new-document", "smith", cwd=tmp_path)
-    assert (made.returncode, made.stderr.count("\n")) == (2, 1)
-    assert str(tmp_path) in made.stderr
+def test_without_a_clone_around(request, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = request.getfixturevalue("dualarm")("new-document", "smith")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert str(tmp_path) in err
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("fails_at", [1, 8])
-def test_a_file_that_cannot_be_moved_leaves_all_as_before(untouched, monkeypatch, fails_at):
+def test_a_file_that_cannot_be_moved_leaves_all_as_before(
+    untouched, extended, monkeypatch, fails_at
+):
+    """What is moved is what was computed for the clone above."""
+
+    def computed_before(staged, item_id):
+        for name, content in extended[1].items():
+            (staged / name).parent.mkdir(parents=True, exist_ok=True)
+            (staged / name).write_bytes(content)
+
+    monkeypatch.setattr("dualarm_repro.new_document._compute", computed_before)
     before, folders = files(untouched), {p for p in untouched.rglob("*") if p.is_dir()}
     replace, calls = Path.replace, []
 
@@ -167,6 +199,7 @@ def test_a_file_that_cannot_be_moved_leaves_all_as_before(untouched, monkeypatch
     monkeypatch.setattr(Path, "replace", failing)
     with pytest.raises(OutputError, match="Permission denied"):
         new_document("smith", root=untouched)
+    assert len(calls) >= fails_at
     assert files(untouched) == before
     assert {p for p in untouched.rglob("*") if p.is_dir()} == folders
 

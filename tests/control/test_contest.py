@@ -10,6 +10,7 @@ from dualarm_repro.control.recorded import recorded_problems, stacked
 from dualarm_repro.control.settings import ControllerSettings
 from dualarm_repro.control.simulate import simulate
 from dualarm_repro.control.solvers import SOLVERS, solve
+from dualarm_repro.errors import InputError
 
 
 @pytest.fixture(scope="module")
@@ -20,6 +21,14 @@ def problems(crossing):
     for k, problem in enumerate(made[::10]):
         np.testing.assert_allclose(solve(problem).x, motion.x[200 * k], atol=1e-9)
     return made
+
+
+@pytest.mark.parametrize("every", [0, -1, 2.0])
+def test_steps_are_taken_one_in_so_many(crossing, every):
+    motion = simulate(*crossing.parts, ControllerSettings(), dt=5e-2)
+    given = crossing.system, crossing.circles, motion, ControllerSettings()
+    with pytest.raises(InputError, match=f"recorded_problems: every = {every}: .*at least 1"):
+        recorded_problems(*given, every)
 
 
 def test_stacking_keeps_every_row(problems):

@@ -148,7 +148,13 @@ def test_a_stack_of_problems_with_no_rows_has_none():
 @pytest.mark.parametrize(
     ("field", "value", "line"),
     [
-        ("b", np.zeros((3, 1)), r"QuadraticProgram: shape of b = \(3, 1\): expected \(3,\)"),
+        (
+            "b",
+            np.zeros((3, 1)),
+            r"b \(its shape\) = \(3, 1\): expected finite numbers \(m,\), m = 3",
+        ),
+        ("b", np.zeros(4), r"b \(its shape\) = \(4,\): expected finite numbers \(m,\), m = 3"),
+        ("G", np.zeros((5, 3)), r"G \(its shape\) = \(5, 3\): .* \(k, n\), n = 14"),
         ("A", "a", r"QuadraticProgram: A = 'a'"),
         ("h", [np.inf] * 5, r"QuadraticProgram: h = inf: expected finite numbers"),
         ("upper", [np.nan] * 14, r"QuadraticProgram: upper = nan"),

@@ -62,6 +62,27 @@ def test_added_capsules_and_points_outside():
     assert sticking_out(arm, np.zeros(7), 7, point) > 0.2
 
 
+@pytest.mark.parametrize("points", [np.empty((0, 3)), np.zeros(3), np.zeros((4, 2))])
+def test_nothing_sticks_out_of_what_has_no_points(points):
+    line = r"sticking_out: points \(its shape\) = .*: expected finite numbers \(N, 3\), not empty"
+    with pytest.raises(InputError, match=line):
+        sticking_out(load_arm("xarm7"), np.zeros(7), 7, points)
+
+
+@pytest.mark.parametrize("q", [np.zeros((1, 7)), np.zeros((7, 1)), 0.0])
+def test_points_stick_out_at_one_configuration(q):
+    with pytest.raises(InputError, match=r"sticking_out: q \(its shape\) = .*\(n,\)"):
+        sticking_out(load_arm("xarm7"), q, 7, np.zeros((1, 3)))
+
+
+@pytest.mark.parametrize("end", [np.zeros(2), np.zeros((1, 3)), [np.nan] * 3, "origin"])
+def test_an_added_capsule_has_two_ends(end):
+    for ends in ((end, np.zeros(3)), (np.zeros(3), end)):
+        line = r"with_capsules: added\[0\]\[[23]\].* = .*: expected finite numbers \(3,\)"
+        with pytest.raises(InputError, match=line):
+            with_capsules(load_arm("xarm7"), added=[("ball", 7, *ends, 0.5)])
+
+
 def test_systems_check_their_input(system, q):
     with pytest.raises(InputError, match="arms"):
         ArmSystem([])

@@ -61,8 +61,10 @@ def test_a_wrong_set_is_noticed(problems):
             np.testing.assert_allclose(x, exact.x, atol=1e-9)
 
 
-def test_from_the_set_before_the_exact_answer_is_cheap(problems):
-    same = [(p, q) for p, q in pairwise(problems) if len(p.h) == len(q.h)]
+@pytest.mark.parametrize("every", [10, pytest.param(1, marks=pytest.mark.long)])
+def test_from_the_set_before_the_exact_answer_is_cheap(problems, every):
+    same = [(p, q) for p, q in pairwise(problems) if len(p.h) == len(q.h)][::every]
+    assert len(same) > 10
     costs = [(exact_cost_after(q, p).total(), exact_cost(q).total()) for p, q in same]
     assert np.median([a / b for a, b in costs]) < 0.7
     entries = {e.solver: e for e in contest(problems, NetworkSettings(), (1,), (1,), repeats=3)}

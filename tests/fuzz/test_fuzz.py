@@ -72,7 +72,7 @@ def test_the_judge_knows_defects():
 
 def test_the_compiler_is_never_ended_midway():
     # Many branches that all differ, so that it compiles for far longer than the patience.
-    body = "".join(f"    x = x * {k}.5 if x > {k} else x + {k}\n" for k in range(200))
+    body = "".join(f"    x = x * {k}.5 if x > {k} else x + {k}\n" for k in range(60))
     made = {}
     exec(f"def long(x):\n{body}    return x", made)
     long = njit(made["long"])

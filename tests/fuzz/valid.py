@@ -14,6 +14,7 @@ from window_scene import IMPROVED, window
 from dualarm_repro import arms, control, planning, scene, welding
 from dualarm_repro.arms import load_arm, load_robot_file
 from dualarm_repro.control.frozen import arm_pair
+from dualarm_repro.control.readings import Readings
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.errors import InputError
 from dualarm_repro.planning.descent.problem import problem
@@ -139,6 +140,9 @@ _MAKERS = {
     "settings": lambda: IMPROVED.changed(termination=IMPROVED.termination.changed(step_limit=15)),
     "control_settings": lambda: control.ControllerSettings(),
     "network": lambda: control.NetworkSettings(),
+    "readings": lambda: Readings.of(
+        made("system"), noise=np.full((3, len(made("system").arrays.pairs)), 1e-4), delay=1
+    ),
     "motion": lambda: control.simulate(
         made("system"), made("circles"), made("q_pair"), made("control_settings")
     ),
@@ -225,6 +229,12 @@ def _run(**more):
         **{"system": made("system"), "circles": made("circles"), "q0": made("q_pair")},
         **{"settings": made("control_settings"), "dt": 1e-3, **more},
     }
+
+
+def _states():
+    """Per joint and task row: what a network begins with, and what pushes it in three steps."""
+    size = made("system").nq + 6
+    return {"y0": np.zeros(size), "disturbance": np.full((3, size), 0.01)}
 
 
 def _field(**more):
@@ -418,7 +428,10 @@ VALID = {
     },
     "control.integrate_network": lambda: {
         k: v
-        for k, v in _run(network=made("network"), integrator="bdf", sample=0.01).items()
+        for k, v in _run(
+            **{"network": made("network"), "integrator": "bdf", "sample": 0.01},
+            y0=_states()["y0"],
+        ).items()
         if k != "dt"
     },
     "control.load_scenario": lambda: {"path": data_path("scenes", "patent_crossing.yaml")},
@@ -427,9 +440,16 @@ VALID = {
         **{k: v for k, v in _run().items() if k not in ("q0", "dt")},
         **{"motion": made("motion"), "every": 5},
     },
-    "control.simulate": lambda: _run(cycles=1, slack=True, slack_weight=1e4, smoothing=0.0),
-    "control.simulate_network": lambda: _run(network=made("network"), cycles=1),
-    "control.simulate_primal_dual": lambda: _run(iterations=5),
+    "control.simulate": lambda: _run(
+        **{"cycles": 1, "slack": True, "slack_weight": 1e4, "smoothing": 0.0},
+        readings=made("readings"),
+    ),
+    "control.simulate_network": lambda: _run(
+        network=made("network"), cycles=1, readings=made("readings"), **_states()
+    ),
+    "control.simulate_primal_dual": lambda: _run(
+        iterations=5, readings=made("readings"), disturbance=_states()["disturbance"]
+    ),
     "control.solve": lambda: {"problem": made("program"), "solver": "active_set"},
     "control.sticking_out": lambda: {
         **{"arm": made("arm"), "q": Q6, "joint": 2, "points": rng().normal(size=(4, 3))}

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from dualarm_repro.cache_folder import CACHE_VARIABLE
-from dualarm_repro.kernel import compiled_folder
+from dualarm_repro.machine_code import compiled_folder
 
 
 @pytest.fixture(autouse=True)

@@ -2,6 +2,7 @@
 
 import json
 import signal
+import time
 
 import numpy as np
 import pandas as pd
@@ -29,6 +30,23 @@ def power(base, exponent):
 def test_results_come_in_the_order_of_the_tasks(jobs):
     tasks = ((power, k, 2) for k in range(7))
     assert list(results(tasks, 7, "squares", jobs)) == [k * k for k in range(7)]
+
+
+def meets(number, folder):
+    """Whether the other of a pair of tasks, of which there are some at the end, is under way."""
+    if number < 200:
+        return True
+    (folder / str(number)).touch()
+    until = time.monotonic() + 60.0
+    while not (met := (folder / str(number ^ 1)).exists()) and time.monotonic() < until:
+        time.sleep(0.01)
+    return met
+
+
+def test_no_worker_gets_a_task_while_it_has_another(tmp_path):
+    """However short those before were: of two neighbours each worker computes one."""
+    tasks = ((meets, number, tmp_path) for number in range(204))
+    assert all(results(tasks, 204, "pairs", jobs=2))
 
 
 def hears(number, _):

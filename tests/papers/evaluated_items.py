@@ -8,7 +8,7 @@ from pathlib import Path
 from long_tests import long_where
 
 from dualarm_repro.datafiles import data_root
-from dualarm_repro.ledger import evaluate
+from dualarm_repro.ledger import evaluate, prove
 from dualarm_repro.ledger.reference import read_costs
 from dualarm_repro.papers import load
 from dualarm_repro.tracking import recording
@@ -55,3 +55,9 @@ def evaluated(item_id):
     READ[item_id] = files - {name.partition("#")[0] for name in noted}
     NOTED[item_id] = frozenset(noted)
     return evaluation
+
+
+@cache
+def proved(erratum_id):
+    """The proof of an erratum, run once."""
+    return prove(REGISTRY, erratum_id)

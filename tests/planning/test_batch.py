@@ -5,7 +5,13 @@ import pytest
 from window_scene import GOAL, IMPROVED, SLAVE, START, TRADITIONAL, around
 
 from dualarm_repro.errors import ConfigurationError, InputError
-from dualarm_repro.planning import certify, perturbed, plan_apf_compiled, plan_batch
+from dualarm_repro.planning import (
+    certify,
+    perturbed,
+    plan_apf_compiled,
+    plan_batch,
+    plan_cartesian_ik_batch,
+)
 from dualarm_repro.planning.descent.problem import problem
 from dualarm_repro.scene import Sphere
 
@@ -57,3 +63,31 @@ def test_one_bad_start_is_named():
         plan_batch(SLAVE, STARTS, GOAL, ball, IMPROVED)
     with pytest.raises(ConfigurationError):
         plan_batch(SLAVE, np.zeros((2, 5)), GOAL, around(), IMPROVED)
+
+
+def test_without_a_start_there_is_no_batch():
+    expected = r"shape of starts = \(0, 6\): expected at least one row of 6 finite numbers"
+    for plan in (plan_batch, plan_cartesian_ik_batch):
+        with pytest.raises(ConfigurationError, match=expected):
+            plan(SLAVE, np.empty((0, 6)), GOAL, around(), IMPROVED)
+
+
+@pytest.mark.parametrize(
+    ("start", "line"),
+    [
+        (START[:, np.newaxis], r"start \(its shape\) = \(6, 1\): expected finite numbers \(n,\)"),
+        (np.array([START]), r"start \(its shape\) = \(1, 6\)"),
+        (0.3, r"start \(its shape\) = \(\)"),
+        (np.where(np.arange(6) == 3, np.nan, START), "start = nan: expected finite numbers"),
+        (["a"] * 6, "start = "),
+    ],
+)
+def test_only_one_configuration_is_perturbed(start, line):
+    with pytest.raises(InputError, match=f"perturbed: {line}"):
+        perturbed(start, 0.1, 3, np.random.default_rng(0))
+
+
+def test_a_width_of_minus_zero_is_none():
+    drawn = perturbed(START.tolist(), -0.0, 3, np.random.default_rng(0))
+    assert np.array_equal(drawn, np.tile(START, (3, 1)))
+    assert perturbed(START, 0.1, 0, np.random.default_rng(0)).shape == (0, 6)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from own_scenes import FLOOR, LEFT, RIGHT, both, written
 
-from dualarm_repro.errors import DataFileError
+from dualarm_repro.errors import DataFileError, InputError
 from dualarm_repro.planning import load_tasks, plan_file
 from dualarm_repro.planning.faults import MOST_TOLD, TaskFaults
 from dualarm_repro.planning.gate import require_sound
@@ -185,3 +185,11 @@ def test_a_mounting_is_one_line_for_all_capsules_of_a_shape(tmp_path):
     cured = text + "exempt: [[lift/l1_0, block], [lift/l2, block]]\n"
     given = load_tasks(written(tmp_path, cured))
     require_sound(given.path, given.scene, given.starts, given.goals)
+
+
+@pytest.mark.parametrize("source", [np.nan, None, 3])
+def test_the_source_that_is_named_is_a_file(tmp_path, source):
+    rest = f"start: {UP}, goal: {UP}"
+    given = load_tasks(written(tmp_path, both(rest, rest)))
+    with pytest.raises(InputError, match=r"require_sound: source = .*a path, or text"):
+        require_sound(source, given.scene, given.starts, given.goals)

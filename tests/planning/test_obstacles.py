@@ -119,3 +119,14 @@ def test_bad_obstacles(call, error, expected):
 def test_moving_arm_keeps_its_type():
     moving = {"slave": MovingArm(SLAVE.arm, JointPath([START]), SLAVE.placement)}
     assert obstacles_of(Scene([MASTER], {}, moving)).moving(0) is False
+
+
+@pytest.mark.parametrize(("count", "points"), [(0, 2), (2, 0), (0, 0)])
+def test_no_configurations_or_points_have_no_distances(count, points):
+    obstacles = obstacles_of(Scene([MASTER], {"ball": Sphere((1, 0, 0), 0.2)}, floor=-0.5))
+    found = obstacles.distances(np.empty((count, points, 2, 3)), np.empty(points), 0)
+    assert [part.shape for part in found] == [
+        (count, points, 2),
+        (count, points, 2, 3),
+        (count, points, 2, 3),
+    ]

@@ -141,7 +141,7 @@ def test_an_arm_has_arrived_if_it_is_there_and_the_planner_says_so(problem, off,
     [
         (lambda p: None, "planner odd: answer = 'NoneType': expected a FoundPath"),
         (lambda p: FoundPath(np.array([p.goal]), "reached"), "planner odd: path = .*begin at the"),
-        (lambda p: FoundPath(np.zeros(12), "reached"), "planner odd: path = .*rows of 12 joints"),
+        (lambda p: FoundPath(np.zeros(12), "reached"), r"planner odd: FoundPath: path .*\(N, nq\)"),
         (lambda p: FoundPath(np.zeros((2, 5)), "reached"), "planner odd"),
         (lambda p: 1 / 0, r"planner odd: method = 'odd'.*ZeroDivisionError: division by zero"),
         (lambda p: (_ for _ in ()).throw(SystemExit(3)), "planner odd.*SystemExit: 3"),
@@ -235,3 +235,10 @@ def test_lengths_of_a_path_by_hand(scene):
 def test_mean_advance_is_the_length_over_the_last_instant():
     track = np.array([[0.0, 0, 0], [3.0, 4.0, 0], [3.0, 4.0, 1.0]])
     assert mean_advance(track, np.array([0.0, 1.0, 4.0])) == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("path", [np.zeros(12), np.empty((0, 12)), np.zeros((2, 12, 1)), 0.0])
+def test_a_path_has_rows(path):
+    line = r"FoundPath: path \(its shape\) = .*finite numbers \(N, nq\), not empty"
+    with pytest.raises(InputError, match=line):
+        FoundPath(path, "reached")

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from window_scene import GOAL, MASTER, SLAVE, START
 
+from dualarm_repro.errors import ConfigurationError, InputError
 from dualarm_repro.planning import (
     Combination,
     JointAttraction,
@@ -212,3 +213,43 @@ def test_unit_of_length_acts_as_a_weight_in_a_mixed_attraction():
     directions = [g / np.linalg.norm(g) for g in (metres, millimetres, position.gradient(START))]
     assert directions[0] @ directions[2] < 0.99
     assert directions[1] @ directions[2] > 1.0 - 1e-6
+
+
+PARTS = [JointAttraction(GOAL, 1.0), PositionAttraction(SLAVE, np.ones(3), 1.0), repulsion()]
+
+
+@pytest.mark.parametrize("potential", [*PARTS, Sum(PARTS[:2]), Sum(PARTS)])
+def test_a_gradient_is_that_of_one_configuration(potential):
+    for wrong in ([START], START[:, np.newaxis], 0.3):
+        line = r"gradient: q \(its shape\) = .*: expected finite numbers \(n,\)"
+        with pytest.raises(InputError, match=line):
+            potential.gradient(np.array(wrong))
+
+
+@pytest.mark.parametrize("potential", [*PARTS, Sum(PARTS)])
+def test_joints_of_another_arm_are_refused_and_no_configurations_have_no_values(potential):
+    for wrong in (START[:5], np.zeros((2, 7)), np.zeros((1, 2, 6))):
+        with pytest.raises(ConfigurationError, match="6"):
+            potential.value(wrong)
+    with pytest.raises(ConfigurationError, match="6"):
+        potential.gradient(START[:5])
+    assert np.shape(potential.value(np.empty((0, 6)))) == (0,)
+
+
+def test_distances_and_shares_of_another_number_of_joints_are_refused():
+    """A kernel would read beyond the end of the row."""
+    for ask in (PARTS[2].distances, PARTS[2].terms, PARTS[2].acting):
+        with pytest.raises(ConfigurationError, match=r"shape of q = \(5,\): expected \(6,\)"):
+            ask(START[:5])
+
+
+@pytest.mark.parametrize("parts", [[np.nan], [3], "ab", 3.0, [PARTS[0], None]])
+def test_a_sum_has_potentials(parts):
+    with pytest.raises(InputError, match=r"Sum: parts(\[\d\])? = .*a value and a gradient"):
+        Sum(parts)
+
+
+@pytest.mark.parametrize("target", [np.ones(2), np.ones((1, 3)), 1.0, [np.nan] * 3])
+def test_a_wanted_position_is_one_point(target):
+    with pytest.raises(InputError, match=r"PositionAttraction: target .*finite numbers \(3,\)"):
+        PositionAttraction(SLAVE, target, 1.0)

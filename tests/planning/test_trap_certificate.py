@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from window_scene import GOAL, IMPROVED, MASTER, SLAVE, START, around
 
+from dualarm_repro.errors import InputError
 from dualarm_repro.planning import Attraction, certify, obstacles_of
 from dualarm_repro.planning.descent.certificate import hessian
 from dualarm_repro.planning.descent.problem import problem
@@ -64,3 +65,10 @@ def test_joints_held_by_a_limit_do_not_count(side):
     assert drawn_back == pytest.approx(3.0 * abs(limit - middle)[1])
     drawn_out = replace(made, goal=np.where(second, limit + side * 0.3, middle))
     assert certify(drawn_out, held, 0).gradient_norm == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("q", [[START], START[:, np.newaxis], 0.3])
+def test_one_configuration_is_certified(q):
+    made = problem(SLAVE, START, GOAL, around(), IMPROVED)
+    with pytest.raises(InputError, match=r"certify: q \(its shape\) = .*finite numbers \(n,\)"):
+        certify(made, np.array(q), 0)

@@ -46,9 +46,10 @@ def test_circumstances_differ_from_the_usual_ones():
     assert list(determinism.CIRCUMSTANCES)[:2] == ["empty cache", "warm cache"], "in this order"
 
 
-def test_a_process_that_fails_is_no_result(tmp_path):
-    with pytest.raises(RuntimeError, match="the process ended with"):
-        determinism.outcomes(determinism.Circumstance(), ["xue.nothing"], 0, tmp_path)
+def test_a_process_that_fails_is_no_result(tmp_path, monkeypatch):
+    monkeypatch.setattr(determinism, "ROOT", tmp_path)  # there is nothing to run
+    with pytest.raises(RuntimeError, match="the process ended with 2"):
+        determinism.outcomes(determinism.Circumstance(), [ITEM], 0, tmp_path)
 
 
 def test_unknown_circumstance(capsys):

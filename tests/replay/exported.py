@@ -8,6 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+#: Writes files as the command line does, without drawing.
+WRITER = Path(__file__).parents[1] / "published_files.py"
+
 
 class Export:
     """Files of items in a folder: ``ID.json`` and ``ID.csv``."""
@@ -17,6 +20,13 @@ class Export:
 
     @classmethod
     def of(cls, ids, folder):
+        """What the command line writes of these items, but for pictures, by another process."""
+        command = [sys.executable, str(WRITER), str(folder), *ids]
+        subprocess.run(command, check=True, capture_output=True, timeout=600)
+        return cls(folder)
+
+    @classmethod
+    def drawn(cls, ids, folder):
         """Run ``dualarm run ID... --out FOLDER`` in a process of its own."""
         command = [sys.executable, "-m", "dualarm_repro.cli", "run", *ids, "--out", str(folder)]
         subprocess.run(command, check=True, capture_output=True, timeout=600)

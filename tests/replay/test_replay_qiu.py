@@ -102,25 +102,33 @@ def test_clearance_of_every_common_motion(published):
 
 
 @pytest.mark.parametrize(
-    "method", ["improved", pytest.param("traditional", marks=pytest.mark.long)]
+    ("method", "most"),
+    [
+        ("improved", 10),
+        pytest.param("improved", None, marks=pytest.mark.long),
+        pytest.param("traditional", None, marks=pytest.mark.long),
+    ],
 )
-def test_table_2_with_the_printed_gains(published, method):
+def test_table_2_with_the_printed_gains(published, method, most):
+    """All goals, or some: of these no fewer may fail or succeed than the others leave."""
     field, table = published.field(), published.table("claim_goals15")
     goals = np.deg2rad(columns(table, *(f"q{j}_deg" for j in range(1, 7))))
+    order = np.random.default_rng(15).permutation(len(goals))[:most]
     start = published.printed("claim_start", "q")
     has_table = published.assumed("claim_no_collision")["floor"] != "none"
     pairs = apart_somewhere(field.arm)
     found = {"planner": 0, "truth": 0}
-    for goal in goals:
+    for goal in goals[order]:
         arrived, path = search(field, start, goal, method == "improved")
         found["planner"] += arrived
         found["truth"] += arrived and is_free(field, path, has_table, pairs)
     table = published.table("tab02")
     rows = (table["control points"] == "elbow_wrist_flange") & (table["eta_0/zeta"] == 1.0)
     (row,) = np.flatnonzero(rows & (table["method"] == method))
-    assert {key: f"{found[key]}/{len(goals)}" for key in found} == {
-        key: table[key][row] for key in found
-    }
+    for key, count in found.items():
+        there, of = map(int, table[key][row].split("/"))
+        assert of == len(goals)
+        assert there - (of - len(order)) <= count <= there, key
 
 
 def is_free(field, path, has_table, pairs):

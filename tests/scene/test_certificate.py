@@ -134,7 +134,7 @@ def test_reach_bounds_the_speed_of_every_core_point(name):
             moved[:, j] += sign * 1e-6
             ends.append(np.empty((len(q), len(links.joint), 2, 3)))
             frames = link_frames(arm.chain, np.eye(3, 4), moved)
-            place_cores(frames, links.joint, links.local, ends[-1])
+            place_cores(frames, links.joint, links.local, ends[-1], 0)
         speed = np.linalg.norm(ends[1] - ends[0], axis=-1) / 2e-6
         fastest[:, j] = speed.max(axis=(0, 2))
     assert (fastest <= bound + 1e-9).all()
@@ -148,6 +148,7 @@ def test_reach_bounds_the_speed_of_every_core_point(name):
         (([0.0] * 12,), InputError, "JointPath: configurations"),
         (([[0.0] * 12] * 2, [1, 1]), InputError, "JointPath: index"),
         (([[0.0] * 12] * 2, None, 0.0), InputError, "certified_minimum: tolerance = 0.0"),
+        (([[0.0] * 12] * 2, None, 0.1, np.nan), InputError, "certified_minimum: enough = nan"),
     ],
 )
 def test_bad_arguments(arguments, error, message):

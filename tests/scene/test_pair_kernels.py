@@ -42,7 +42,7 @@ def test_batch_equals_single_pairs(case):
     arrays, second, kernel = case(np.random.default_rng(RNG_SEED))
     pairs = np.array([(i, j) for i in range(C) for j in range(C) if i != j])
     distance, witness = np.empty((N, len(pairs))), np.empty((N, len(pairs), 3, 3))
-    kernel(*arrays, pairs, distance, witness)
+    kernel(*arrays, pairs, distance, witness, 0)
     for n in range(N):
         for k, (i, j) in enumerate(pairs):
             first = Capsule(*arrays[0][n, i], arrays[1][i])
@@ -56,7 +56,22 @@ def test_distances_are_the_same_without_witnesses(case):
     arrays, _, kernel = case(np.random.default_rng(RNG_SEED))
     pairs = np.array([(i, j) for i in range(C) for j in range(C)])
     full, bare = np.empty((2, N, len(pairs)))
-    kernel(*arrays, pairs, full, np.empty((N, len(pairs), 3, 3)))
-    kernel(*arrays, pairs, bare, np.empty((0, 0, 3, 3)))
+    kernel(*arrays, pairs, full, np.empty((N, len(pairs), 3, 3)), 0)
+    kernel(*arrays, pairs, bare, np.empty((0, 0, 3, 3)), 0)
     np.testing.assert_allclose(bare, full, atol=1e-14)
     assert full.min() < 0 < full.max()
+
+
+@pytest.mark.parametrize("case", [capsule_case, box_case, plane_case])
+def test_only_the_columns_of_the_pairs_are_filled(case):
+    arrays, _, kernel = case(np.random.default_rng(RNG_SEED))
+    pairs = np.array([(0, 1), (2, 0)])
+    for size in (0, 5):
+        distance, witness = np.full((N, 5), 7.0), np.full((N if size else 0, size, 3, 3), 7.0)
+        kernel(*arrays, pairs, distance, witness, 2)
+        alone, points = np.empty((N, 2)), np.empty((N if size else 0, min(size, 2), 3, 3))
+        kernel(*arrays, pairs, alone, points, 0)
+        assert (distance[:, [0, 1, 4]] == 7.0).all()
+        np.testing.assert_array_equal(distance[:, 2:4], alone)
+        np.testing.assert_array_equal(witness[:, 2:4], points)
+        assert not size or (witness[:, [0, 1, 4]] == 7.0).all()

@@ -26,7 +26,7 @@ def test_cores_are_where_pinocchio_has_them(name):
     links = links_of(arm)
     assert links.names == tuple(shape.name for shape in arm.geometry.geometryObjects)
     ends = np.empty((50, len(links.names), 2, 3))
-    place_cores(link_frames(arm.chain, base.homogeneous[:3], q), links.joint, links.local, ends)
+    place_cores(link_frames(arm.chain, base.homogeneous[:3], q), links.joint, links.local, ends, 0)
     for row, configuration in zip(ends, q, strict=True):
         expected = cores_by_pinocchio(arm, base, configuration)
         np.testing.assert_allclose(row, expected, atol=1e-12)
@@ -53,6 +53,6 @@ def test_no_index_leaves_an_array():
     frames = link_frames.py_func(arm.chain, base, q)
     np.testing.assert_allclose(frames, link_frames(arm.chain, base, q), atol=1e-14)
     checked, compiled = np.empty((2, 2, len(links.names), 2, 3))
-    place_cores.py_func(frames, links.joint, links.local, checked)
-    place_cores(frames, links.joint, links.local, compiled)
+    place_cores.py_func(frames, links.joint, links.local, checked, 0)
+    place_cores(frames, links.joint, links.local, compiled, 0)
     np.testing.assert_allclose(checked, compiled, atol=1e-14)

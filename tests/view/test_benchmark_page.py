@@ -61,7 +61,8 @@ WORKERS = {
     "series": [
         {"name": "a_study", "limit": False, "points": [
             {"x": 1, "seconds": 1.9, "quartiles": [1.8, 2.0], "cpu_seconds": 1.9},
-            {"x": 2, "seconds": 1.0, "quartiles": [0.9, 1.1], "cpu_seconds": 0.1}]}],
+            {"x": 2, "seconds": 1.0, "quartiles": [0.9, 1.1], "cpu_seconds": 2.0,
+             "start_seconds": 1.5}]}],
     "peak_mb": {},
 }  # fmt: skip
 CONTENT = {
@@ -134,7 +135,16 @@ def test_durations(microseconds, text):
 
 
 def test_workers(run):
-    assert cells(benchmark_page.workers_page(run)) == [["a_study", "1.9", "1.0", "1.9"]]
+    assert cells(benchmark_page.workers_page(run)) == [
+        ["a_study", "1.9", "1.0", "1.9", "1.05", "1.5"]
+    ]
+
+
+def test_a_run_that_took_wall_for_cpu_time_tells_no_cpu_time():
+    content = json.loads(json.dumps(CONTENT))
+    del content["growth"][1]["series"][0]["points"][1]["start_seconds"]
+    older = BenchmarkRun.model_validate(content)
+    assert cells(benchmark_page.workers_page(older)) == [["a_study", "1.9", "1.0", "1.9"]]
 
 
 def test_claims_are_drawn_by_their_margin(run):

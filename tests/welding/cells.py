@@ -22,13 +22,16 @@ def make_cell(
     lift=0.0,
     radii=(0.10, 0.06),
     arms=None,
+    bases=None,
     reference="workpiece_origin",
 ):
-    bases = BASES.copy()
-    bases[:, 2, 3] += lift
+    if bases is None:
+        bases = BASES.copy()
+        bases[:, 2, 3] += lift
+        bases = base_poses(bases, reading)
     return assemble(
-        arms or [load_arm(arm)] * 3,
-        base_poses(bases, reading),
+        [load_arm(arm)] * 3 if arms is None else arms,
+        bases,
         Workpiece(*radii, length=0.6, branch_length=0.15, seam_points=count),
         posture,
         Tools(grasp, 0.15, 0.06, Torch(0.35, crank, 0.02, 0.10), axis),

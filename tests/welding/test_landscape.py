@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualarm_repro.errors import UnknownNameError
+from dualarm_repro.errors import InputError, UnknownNameError
 from dualarm_repro.welding import Objective, Optimum, Placement, extreme_position, survey
 from dualarm_repro.welding.landscape import EXTREMES, nearer_image
 
@@ -57,3 +57,20 @@ def test_no_extreme_out_of_reach(placement):
     assert np.isnan(found.position).all()
     with pytest.raises(UnknownNameError, match="lowest_welder, lowest_mean_of_welder"):
         extreme_position(placement, BOX, "worst", spacing=0.1, starts=2)
+
+
+@pytest.mark.parametrize("box", [BOX.T, BOX[:2], np.empty((0, 2)), BOX[np.newaxis], 3.0])
+def test_a_region_has_three_rows_of_bounds(placement, box):
+    text = r"box \(its shape\) = .*: expected finite numbers \(3, 2\)"
+    with pytest.raises(InputError, match=f"survey: {text}"):
+        survey(placement, box, 0.3)
+    known = survey(placement, BOX, 0.3)
+    for grid in (None, known):
+        with pytest.raises(InputError, match=f"extreme_position: {text}"):
+            extreme_position(placement, box, "lowest_welder", spacing=0.3, starts=1, known=grid)
+
+
+def test_bounds_of_a_region_are_in_order_though_its_grid_is_known(placement):
+    known, turned = survey(placement, BOX, 0.3), BOX[:, ::-1]
+    with pytest.raises(InputError, match="lower < upper"):
+        extreme_position(placement, turned, "lowest_welder", spacing=0.3, starts=1, known=known)

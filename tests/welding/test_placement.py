@@ -227,10 +227,28 @@ def test_bad_input():
     with pytest.raises(UnknownNameError, match="along_bisector, work_angle_45"):
         make_cell(axis="flat")
     cell = make_cell(count=12)
-    with pytest.raises(InputError, match="shape of bases"):
+    with pytest.raises(InputError, match=r"Cell: bases \(its shape\) = \(4, 4\): .*\(3, 4, 4\)"):
         type(cell)(**{**_fields(cell), "bases": np.eye(4)})
-    with pytest.raises(InputError, match="seam points = 2"):
+    with pytest.raises(InputError, match=r"flanges \(its shape\).*\(3, N, 4, 4\), N = 2"):
         type(cell)(**{**_fields(cell), "rotations": cell.rotations[:2]})
+    along = {name: getattr(cell, name)[:2] for name in ("rotations", "torch_axis", "seam")}
+    along |= {name: getattr(cell, name)[:, :2] for name in ("flanges", "references")}
+    with pytest.raises(InputError, match="seam points = 2"):
+        type(cell)(**{**_fields(cell), **along})
+
+
+@pytest.mark.parametrize("count", [0, 2, 4])
+def test_a_cell_is_assembled_of_three_arms(count):
+    with pytest.raises(InputError, match=f"assemble: number of arms = {count}: expected 3: carr"):
+        make_cell(count=12, arms=[load_arm("kr16-2")] * count, bases=BASES)
+
+
+@pytest.mark.parametrize(
+    "bases", [BASES[np.newaxis], BASES[:2], BASES[:, :3], np.empty((0, 4, 4)), np.array([]), 3]
+)
+def test_a_cell_is_assembled_on_three_bases(bases):
+    with pytest.raises(InputError, match=r"assemble: bases \(its shape\) = .*\(3, 4, 4\)"):
+        make_cell(count=12, bases=bases)
 
 
 def test_arms_may_differ():

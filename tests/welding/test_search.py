@@ -122,10 +122,18 @@ def test_unknown_operators():
         GeneticSettings(infeasible="penalty")
 
 
-@pytest.mark.parametrize("box", [BOX[:, ::-1], BOX[:, :1], BOX * np.inf, np.zeros((3, 2))])
+@pytest.mark.parametrize(
+    "box",
+    [
+        *(BOX[:, ::-1], BOX[:, :1], BOX * np.inf, np.zeros((3, 2))),
+        *(np.empty((0, 2)), BOX[np.newaxis], BOX[0], 3.0, np.array([])),
+    ],
+)
 def test_bad_box(box):
     with pytest.raises(InputError, match="lower < upper"):
         evolve(hill, box, GeneticSettings(), np.random.default_rng(1))
+    with pytest.raises(InputError, match="lower < upper"):
+        grid_optimum(hill, box, 0.1)
     with pytest.raises(InputError, match="lower < upper"):
         grid_points(box, 0.1)
 
@@ -213,3 +221,28 @@ def test_known_values_of_the_grid_are_not_asked_for_again():
     known = grid_optimum(fitness, BOX, 0.2, values=hill(points))
     assert (known.position == plain.position).all()
     assert known.evaluations == plain.evaluations - len(points)
+
+
+@pytest.mark.parametrize("values", [np.ones(3), np.empty(0)])
+def test_known_values_are_one_for_each_point_of_the_grid(values):
+    points = len(grid_points(BOX, 0.2))
+    expected = f"length of values = {len(values)}: expected {points}"
+    with pytest.raises(InputError, match=expected):
+        grid_optimum(hill, BOX, 0.2, values=values)
+
+
+def test_a_box_of_other_variables_than_the_fitness_has_is_told_with_what_it_raises():
+    """The box says how many variables there are; only the fitness knows better."""
+    for box, shape in ((BOX[:2], r"\(50, 2\)"), (np.tile(BOX, (2, 1)), r"\(50, 6\)")):
+        line = rf"search: fitness of {shape} = 'ValueError: operands .*: expected 50 finite numbers"
+        with pytest.raises(InputError, match=line) as caught:
+            evolve(hill, box, GeneticSettings(), np.random.default_rng(1))
+        assert isinstance(caught.value.__cause__, ValueError)
+        with pytest.raises(InputError, match=r"search: fitness of \(\d+, \d\) = 'ValueError"):
+            grid_optimum(hill, box, 0.5)
+
+
+def test_an_error_of_our_own_in_a_fitness_stays_what_it_is():
+    placement = Placement(make_cell(count=12), Objective())
+    with pytest.raises(InputError, match=r"placement: centres = .*expected finite positions"):
+        evolve(placement, BOX[:2], GeneticSettings(), np.random.default_rng(1))

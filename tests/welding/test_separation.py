@@ -36,7 +36,7 @@ def test_capsules_are_coal():
     rng = np.random.default_rng(11)
     ends = rng.normal(size=(1000, 2, 2, 3)) * rng.choice([0.2, 1.0], size=(1000, 1, 1, 1))
     radius, distance = np.array([0.1, 0.3]), np.empty((1000, 1))
-    capsules_capsules(ends, radius, np.array([[0, 1]]), distance, np.empty((0, 0, 3, 3)))
+    capsules_capsules(ends, radius, np.array([[0, 1]]), distance, np.empty((0, 0, 3, 3)), 0)
     expected = [_coal_distance(a, 0.1, b, 0.3) for a, b in ends]
     assert (np.array(expected) < 0).sum() > 50
     assert abs(distance[:, 0] - expected).max() < 1e-12

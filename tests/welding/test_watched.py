@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dualarm_repro.errors import InputError
 from dualarm_repro.welding import GeneticSettings, Objective, Placement, evolve, watch
 from dualarm_repro.welding.watched import first_stop
 
@@ -52,3 +53,10 @@ def test_a_run_can_be_ended_by_its_best_fitness():
         assert first_stop(values, chosen) == ends[watched]
     assert ends["best"][1] == "stall"
     assert ends["best"] < ends["mean"]
+
+
+@pytest.mark.parametrize("box", [BOX.T, BOX[:2], np.empty((0, 2))])
+def test_the_region_of_a_watched_run_has_three_rows(box):
+    placement = Placement(make_cell(count=12), Objective())
+    with pytest.raises(InputError, match=r"watch: box \(its shape\) = .*\(3, 2\)"):
+        watch(placement, box, GeneticSettings(), np.random.default_rng(3))

@@ -35,12 +35,12 @@ def machine_code(lab: Laboratory) -> Iterator[Trial]:
 
 def tables(lab: Laboratory) -> Iterator[Trial]:
     """Table and record of a stored study: seen, and computed again."""
-    lab.undisturbed(STUDY)
+    stored = lab.undisturbed(STUDY).folder
     told = (*STUDY.command, "status")
 
     def prepared() -> Place:
         place = lab.place(prefix=ordinary() or ())
-        called(STUDY.command, place)
+        shutil.copytree(stored, place.folder, dirs_exist_ok=True)
         return place
 
     for pattern in ("tiny.parquet", "tiny.json"):
@@ -80,9 +80,11 @@ def _with_cache(lab: Laboratory, filled: Path, pattern: str) -> Iterator[tuple[s
         place = lab.place(prefix=ordinary() or ())
         own = place.folder / "cache"
         own.mkdir()
-        for name in {above, "sources.json"}:
-            source = filled / name
-            (shutil.copytree if source.is_dir() else shutil.copy2)(source, own / name)
+        for source in {filled / name for name in (above, "records", "sources.json")}:
+            if source.is_dir():
+                shutil.copytree(source, own / source.name)
+            elif source.is_file():
+                shutil.copy2(source, own / source.name)
         return Place(place.folder, own, prefix=place.prefix)
 
     yield from each_damage(lab, lambda folder: sorted((folder / "cache").glob(pattern)), prepared)

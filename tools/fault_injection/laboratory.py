@@ -33,10 +33,11 @@ class Trial(NamedTuple):
 
 
 class Undisturbed(NamedTuple):
-    """What a command gives, and the seconds that it computes for it."""
+    """What a command gives, the seconds that it computes for it, and the folder that it leaves."""
 
     results: dict[str, str]
     cpu: float
+    folder: Path
 
 
 @dataclass
@@ -92,7 +93,7 @@ class Laboratory:
                 call = called(job.command, place)
                 if call.code not in job.codes:
                     raise RuntimeError(f"{job.name} fails undisturbed: {last_line(call.err)}")
-                both.append(Undisturbed(job.results(place.folder, call), call.cpu))
+                both.append(Undisturbed(job.results(place.folder, call), call.cpu, place.folder))
             if both[0].results != both[1].results:
                 raise RuntimeError(f"{job.name} gives other results the second time")
             self.known[job.name] = both[1]

@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
-from ...arguments import checked
+from ...arguments import Joints, checked
 from ...errors import InputError, UnknownNameError
 from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
 from ..closed_loop import observe
 from ..motion import Motion
 from ..settings import ControllerSettings
-from ..simulate import checked_run
+from ..simulate import checked_run, require_states
 from ..system import ArmSystem
 from .network import state_rate
 from .network_settings import NetworkSettings
@@ -34,7 +34,7 @@ def integrate_network(
     *,
     integrator: str = "bdf",
     sample: float = 5e-3,
-    y0: np.ndarray | None = None,
+    y0: Joints | None = None,
 ) -> tuple[Motion, int]:
     """Integrate d[q; y]/dt = [x; dy/dt] over one turn of the circles, with the gain unlimited.
 
@@ -79,6 +79,7 @@ def integrate_network(
 
     times = sample * np.arange(steps + 1)
     y0 = np.zeros(n + m) if y0 is None else y0
+    require_states("integrate_network", system, y0=y0)
     found = solve_ivp(
         rate,
         (0.0, times[-1]),

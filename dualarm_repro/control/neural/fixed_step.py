@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import checked
+from ...arguments import Joints, checked
 from ...kernel import kernel
 from ..assembly import make_buffers, sense
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
 from ..parts import ProgramParts
-from ..readings import Readings, angles_at, noise_at
+from ..readings import Readings, angles_at, noise_at, readings_for
 from ..settings import ControllerSettings
-from ..simulate import UNDISTURBED, checked_run, truncated
+from ..simulate import UNDISTURBED, Disturbance, checked_run, require_states, truncated
 from ..system import ArmSystem
 from .network import state_rate
 from .network_settings import NetworkSettings
@@ -90,8 +90,8 @@ def simulate_network(
     dt: float = 1e-3,
     cycles: int = 1,
     readings: Readings | None = None,
-    disturbance: np.ndarray = UNDISTURBED,
-    y0: np.ndarray | None = None,
+    disturbance: Disturbance = UNDISTURBED,
+    y0: Joints | None = None,
 ) -> Motion:
     """Follow the circles with the network at a fixed rate; the state starts at zero unless given.
 
@@ -103,7 +103,8 @@ def simulate_network(
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, cycles)
     y0 = np.zeros(system.nq + 3 * len(system.arms)) if y0 is None else y0
     arguments = system.arrays, numbers, network.numbers(dt), circles.numbers(), q0, y0, steps, dt
-    readings = readings or Readings.of(system)
+    readings = readings_for(system, readings)
+    require_states("simulate_network", system, disturbance, y0)
     return truncated(system, dt, *run_network(*arguments, readings, disturbance))
 
 

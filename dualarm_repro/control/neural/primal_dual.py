@@ -15,16 +15,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import checked
+from ...arguments import Count, checked
 from ...errors import InputError
 from ...kernel import kernel
 from ..assembly import make_buffers, sense, state
 from ..circle import Circles, follow
 from ..closed_loop import DIVERGED, DONE, Run, observe
 from ..motion import Motion
-from ..readings import Readings, angles_at, noise_at
+from ..readings import Readings, angles_at, noise_at, readings_for
 from ..settings import ControllerSettings, RowForm
-from ..simulate import UNDISTURBED, checked_run, truncated
+from ..simulate import UNDISTURBED, Disturbance, checked_run, require_states, truncated
 from ..system import ArmSystem
 from .fixed_step import FASTEST
 
@@ -148,10 +148,10 @@ def simulate_primal_dual(
     q0: ArrayLike,
     settings: ControllerSettings,
     *,
-    iterations: int = 100,
+    iterations: Count = 100,
     dt: float = 1e-3,
     readings: Readings | None = None,
-    disturbance: np.ndarray = UNDISTURBED,
+    disturbance: Disturbance = UNDISTURBED,
 ) -> Motion:
     """Follow the circles with ``iterations`` steps of the primal-dual network per tick.
 
@@ -164,8 +164,7 @@ def simulate_primal_dual(
     q0, numbers, steps = checked_run(system, circles, q0, settings, dt, 1)
     if settings.form is not RowForm.PAIR_NORMAL:
         raise InputError("simulate_primal_dual", "form", settings.form, "pair_normal")
-    if iterations < 1:
-        raise InputError("simulate_primal_dual", "iterations", iterations, "a positive number")
     arguments = system.arrays, numbers, circles.numbers(), q0, iterations, steps, dt
-    readings = readings or Readings.of(system)
+    readings = readings_for(system, readings)
+    require_states("simulate_primal_dual", system, disturbance)
     return truncated(system, dt, *run_primal_dual(*arguments, readings, disturbance))

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...annotation import real_array
-from ...arguments import NonNegative, Number, checked
-from ...errors import InputError
+from ...arguments import Joints, NonNegative, Number, checked
 from ...kernel import kernel
 from ...scene.bodies import PlacedArm
 from ..field.field_kernels import evaluate, field_of, gradient, workspace
@@ -18,7 +16,7 @@ from ..settings import APFSettings
 from .compiled import empty_rows, rules_of, run
 from .follow_reason import REASONS, FollowReason
 from .outcome import refined, rescued
-from .problem import PlanningProblem, problem, require_clear
+from .problem import PlanningProblem, checked_starts, problem, require_clear
 from .termination import StopReason
 
 
@@ -70,9 +68,9 @@ def plan_batch(
     Raises
     ------
     ConfigurationError, InputError
-        As for a single plan.
+        As for a single plan; no start at all.
     """
-    starts = np.atleast_2d(placed.arm.configurations(starts))
+    starts = checked_starts(placed, starts)
     made = problem(placed, starts[0], goal, obstacles, settings)
     require_clear(made, starts)
     last, numbers = np.empty_like(starts), np.empty((len(starts), 4), dtype=np.int64)
@@ -122,12 +120,7 @@ def _run_all(field, rules, switch_rules, starts, rows, last, numbers, measures):
 
 @checked
 def perturbed(
-    start: ArrayLike, half_width: NonNegative, count: Number, rng: np.random.Generator
+    start: Joints, half_width: NonNegative, count: Number, rng: np.random.Generator
 ) -> np.ndarray:
     """``count`` starts q + u with u uniform in [-half_width, half_width]^nq [rad], (count, nq)."""
-    try:
-        start = real_array(start)
-        count_of = len(start)
-    except (TypeError, ValueError):
-        raise InputError("perturbed", "start", start, "finite numbers (nq,) [rad]") from None
-    return start + rng.uniform(-half_width, half_width, (count, count_of))
+    return start + rng.uniform(-half_width, half_width, (count, len(start)))

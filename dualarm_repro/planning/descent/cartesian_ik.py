@@ -33,7 +33,7 @@ from .cartesian_kernels import Follower, follow
 from .compiled import Rows, empty_rows, rules_of
 from .follow_reason import REASONS
 from .outcome import finished
-from .problem import PlanningProblem, problem, require_clear
+from .problem import PlanningProblem, checked_starts, problem, require_clear
 
 
 @checked
@@ -79,7 +79,7 @@ def plan_cartesian_ik_batch(
     settings: APFSettings,
 ) -> Batch:
     """:func:`plan_cartesian_ik` from every row of ``starts`` (N, nq), without the rows of each."""
-    starts = np.atleast_2d(placed.arm.configurations(starts))
+    starts = checked_starts(placed, starts)
     made, checked = _problems(placed, starts[0], goal, obstacles, settings)
     require_clear(checked, starts)
     last, numbers = np.empty_like(starts), np.empty((len(starts), 4), dtype=np.int64)

@@ -9,7 +9,8 @@ import numpy as np
 from ...arms.wrist_geometry import WristGeometry
 from ...arms.wrist_ik import inverse_kinematics
 from ...kernel import kernel
-from ...scene.vectors import along, dot, minus, rotated_back, scaled, vector
+from ...scene.posing import copy_frame
+from ...scene.vectors import along, copy_row, dot, minus, rotated_back, scaled, vector
 from ...settings import code
 from ..field.field_kernels import Field, barrier, evaluate, repulsion, workspace
 from ..field.nearest_kernels import witness
@@ -48,9 +49,10 @@ def follow(follower, field, rules, start, turn, rows):
     point, and where all that do collide.
     """
     work, free = workspace(field), workspace(follower.point)
-    free.frames[:] = follower.point.base
+    for j in range(len(free.frames)):
+        copy_frame(follower.point.base, free.frames[j])
     look = workspace(follower.checked)
-    rows.path[0] = start
+    copy_row(start, rows.path[0])
     terms = evaluate(field, start, 0, work)
     X, whole = terms.flange, distance(terms.flange, field.goal_point)
     for step in range(rules.step_limit + 1):
@@ -96,8 +98,8 @@ def follow(follower, field, rules, start, turn, rows):
 @kernel
 def potential(field, X, step, work):
     """U(X) of the free point."""
-    field.local[0, 0, :] = X
-    field.local[0, 1, :] = X
+    copy_row(X, field.local[0, 0])
+    copy_row(X, field.local[0, 1])
     gap = minus(X, vector(field.goal_point))
     return repulsion(field, 0, 1, step, work) + 0.5 * field.position_gain * dot(gap, gap)
 
@@ -156,8 +158,9 @@ def posture(follower, base, R, X, q, step, rules, look, out):
     where there is none, else -1."""
     pose = np.zeros((1, 4, 4))
     for c in range(3):
-        pose[0, :3, c] = rotated_back(base, (R[0, c], R[1, c], R[2, c]))
-    pose[0, :3, 3] = rotated_back(base, minus(X, (base[0, 3], base[1, 3], base[2, 3])))
+        copy_row(rotated_back(base, (R[0, c], R[1, c], R[2, c])), pose[0, :3, c])
+    away = minus(X, (base[0, 3], base[1, 3], base[2, 3]))
+    copy_row(rotated_back(base, away), pose[0, :3, 3])
     pose[0, 3, 3] = 1.0
     branches = inverse_kinematics(follower.geometry, pose, q, rules.lower, rules.upper)[0]
     reason, nearest = NO_POSTURE, JUMP
@@ -167,7 +170,7 @@ def posture(follower, base, R, X, q, step, rules, look, out):
             evaluate(follower.checked, branches[k], step + 1, look)
             if look.clearance.min() > 0.0:
                 nearest, reason = change, -1
-                out[:] = branches[k]
+                copy_row(branches[k], out)
             elif reason >= 0:
                 reason = COLLIDES
     return reason

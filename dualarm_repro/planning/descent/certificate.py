@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arguments import Number, checked
+from ...arguments import Joints, Number, checked
 from ...differences import central_differences
 from .problem import PlanningProblem
 
@@ -43,7 +43,7 @@ class Certificate:
 
 
 @checked
-def certify(made: PlanningProblem, q: np.ndarray, step: Number) -> Certificate:
+def certify(made: PlanningProblem, q: Joints, step: Number) -> Certificate:
     """Gradient and curvature of U_att + U_rep at ``q``, with the obstacles of ``step``."""
     gradient = made.field.gradient(q, step)
     lower, upper = made.limits

@@ -163,6 +163,15 @@ def checked_ends(
     return ends
 
 
+def checked_starts(placed: PlacedArm, starts: ArrayLike) -> np.ndarray:
+    """Starts of a batch (N, nq), at least one; ConfigurationError where they are something else."""
+    rows = np.atleast_2d(placed.arm.configurations(starts))
+    if not len(rows):
+        expected = f"at least one row of {placed.arm.nq} finite numbers [rad]"
+        raise ConfigurationError(f"arm {placed.name}", "shape of starts", rows.shape, expected)
+    return rows
+
+
 def _configuration(placed: PlacedArm, field: str, q: ArrayLike) -> np.ndarray:
     source, expected = f"arm {placed.name}", f"{placed.arm.nq} finite numbers [rad]"
     try:

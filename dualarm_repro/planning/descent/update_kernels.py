@@ -6,7 +6,7 @@ import numpy as np
 
 from ...arms.chain import Chain
 from ...kernel import kernel
-from ...scene.posing import link_frames
+from ...scene.posing import copy_frame, set_frames
 from ...settings import code
 from ..field.field_kernels import attractions, evaluate, flange, gradient, repulsion, total_of
 from ..settings import UpdateRule
@@ -68,7 +68,7 @@ def _neighbour_step(field, rules, q, step, attracts, work, out):
     """
     n = len(q)
     frames = work.frames
-    frames[0] = field.base
+    copy_frame(field.base, frames[0])
     partial, joint_square, virtual_square = np.zeros(n + 1), np.zeros(n + 1), np.zeros(n + 1)
     partial[0] = repulsion(field, 0, field.first[1], step, work)
     choice, trial = np.zeros(n, dtype=np.int64), q.copy()
@@ -83,7 +83,7 @@ def _neighbour_step(field, rules, q, step, attracts, work, out):
         choice[j] += 1
         trial[j] = min(max(angle, rules.lower[j]), rules.upper[j])
         joint = Chain(field.chain.rotation[j : j + 1], field.chain.translation[j : j + 1])
-        frames[j + 1] = link_frames(joint, frames[j], trial[j : j + 1].reshape(1, 1))[0, 1]
+        set_frames(joint, frames[j], trial[j : j + 1], frames[j : j + 2])
         partial[j + 1] = partial[j]
         if field.first[j + 2] > field.first[j + 1]:
             partial[j + 1] += repulsion(field, field.first[j + 1], field.first[j + 2], step, work)

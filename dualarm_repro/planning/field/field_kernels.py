@@ -11,7 +11,7 @@ import numpy as np
 
 from ...arms.chain import Chain
 from ...kernel import kernel
-from ...scene.posing import link_frames
+from ...scene.posing import set_frames
 from ...scene.vectors import dot, minus, out_of_frame, scaled, vector
 from ..descent.problem import PlanningProblem
 from ..settings import Combination
@@ -192,7 +192,7 @@ def attractions(field, X, joint_square, virtual_square):
 @kernel
 def evaluate(field, q, step, work):
     """All terms at one configuration."""
-    work.frames[:] = link_frames(field.chain, field.base, q.reshape(1, -1))[0]
+    set_frames(field.chain, field.base, q, work.frames)
     repulsive = repulsion(field, 0, len(field.joint), step, work)
     X = flange(field, work.frames[-1])
     joint_square = squared_error(q, field.goal)

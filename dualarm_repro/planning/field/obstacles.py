@@ -104,17 +104,18 @@ class Obstacles:
         boxes = np.broadcast_to(self.boxes[row], (count, *self.boxes.shape[1:]))
         everything = np.concatenate([ends, cores], axis=1), np.concatenate([radius, self.radius])
         parts = (
-            (_pairs(points, len(self.radius), points), capsules_capsules, everything),
-            (_pairs(points, len(self.half)), capsules_boxes, (ends, radius, boxes, self.half)),
-            (_pairs(points, len(self.planes)), capsules_planes, (ends, radius, self.planes)),
+            (len(self.radius), points, capsules_capsules, everything),
+            (len(self.half), 0, capsules_boxes, (ends, radius, boxes, self.half)),
+            (len(self.planes), 0, capsules_planes, (ends, radius, self.planes)),
         )
         distances, witnesses = [], []
-        for pairs, kernel, bodies in parts:
+        for shapes, offset, kernel, bodies in parts:
+            pairs = _pairs(points, shapes, offset)
             distance = np.empty((count, len(pairs)))
             witness = np.empty((count, len(pairs), 3, 3))
-            kernel(*bodies, pairs, distance, witness)
-            distances.append(distance.reshape(count, points, -1))
-            witnesses.append(witness.reshape(count, points, -1, 3, 3))
+            kernel(*bodies, pairs, distance, witness, 0)
+            distances.append(distance.reshape(count, points, shapes))
+            witnesses.append(witness.reshape(count, points, shapes, 3, 3))
         witness = np.concatenate(witnesses, axis=2)
         return np.concatenate(distances, axis=2), witness[..., 0, :], -witness[..., 2, :]
 
@@ -166,7 +167,7 @@ def obstacles_of(scene: Scene, leave_out: Collection[str] = ()) -> Obstacles:
     )
 
 
-def _pairs(points: int, shapes: int, offset: int = 0) -> np.ndarray:
+def _pairs(points: int, shapes: int, offset: int) -> np.ndarray:
     first, second = np.indices((points, shapes)).reshape(2, -1)
     return np.column_stack([first, second + offset])
 

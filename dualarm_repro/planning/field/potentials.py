@@ -11,8 +11,8 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from ...arguments import Number, checked
-from ...errors import ConfigurationError
+from ...arguments import JointRows, Joints, Number, Vector3, checked
+from ...errors import ConfigurationError, InputError
 from ...scene.bodies import PlacedArm
 from ...scene.posing import cores_in
 from ..settings import Combination
@@ -46,16 +46,16 @@ class PositionAttraction:
     """
 
     placed: PlacedArm
-    target: np.ndarray
+    target: Vector3
     gain: float
 
     @checked
-    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
+    def value(self, q: JointRows, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
         return 0.5 * self.gain * np.sum((end_effector(self.placed, q) - self.target) ** 2, axis=-1)
 
     @checked
-    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def gradient(self, q: Joints, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         J = self.placed.placement.rotation @ self.placed.arm.jacobian(q)[:3]
         return self.gain * J.T @ (end_effector(self.placed, q) - self.target)
@@ -77,17 +77,17 @@ class JointAttraction:
         k
     """
 
-    target: np.ndarray
+    target: Joints
     gain: float
 
     @checked
-    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
+    def value(self, q: JointRows, step: Number = 0) -> float | np.ndarray:
         """U; ``step`` is of no consequence."""
         _require_joints("JointAttraction", q, len(self.target))
         return 0.5 * self.gain * np.sum((q - self.target) ** 2, axis=-1)
 
     @checked
-    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def gradient(self, q: Joints, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         _require_joints("JointAttraction", q, len(self.target))
         return self.gain * (q - self.target)
@@ -123,27 +123,24 @@ class PointRepulsion:
     combination: Combination
 
     @checked
-    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
+    def value(self, q: JointRows, step: Number = 0) -> float | np.ndarray:
         """U."""
         return self.terms(q, step).sum(axis=-1)
 
     @checked
-    def terms(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def terms(self, q: JointRows, step: Number = 0) -> np.ndarray:
         """Share of each control point in U, (K,) or (N, K)."""
         return self._shares(q, step).sum(axis=-1)
 
     @checked
-    def acting(self, q: np.ndarray, step: Number = 0) -> tuple[str, ...]:
+    def acting(self, q: Joints, step: Number = 0) -> tuple[str, ...]:
         """Names of the shapes that repel at one configuration."""
         acting = np.flatnonzero(self._shares(q, step).any(axis=0))
         return tuple(self.obstacles.names[m] for m in acting)
 
     @checked
-    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def gradient(self, q: Joints, step: Number = 0) -> np.ndarray:
         """dU/dq = sum w_i u'(d_im) n_im^T J_i, with the point of the control point nearest to m."""
-        if q.ndim != 1:
-            expected = f"({self.placed.arm.nq},)"
-            raise ConfigurationError("PointRepulsion", "shape of q", q.shape, expected)
         _require_joints("PointRepulsion", q, self.placed.arm.nq)
         frames = frames_of(self.placed, q[np.newaxis])
         ends = cores_in(frames, self.points.joint, self.points.local)
@@ -156,8 +153,9 @@ class PointRepulsion:
         return np.einsum("km,kmr,kmjr,kj->j", slope, outward, velocity, carried)
 
     @checked
-    def distances(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def distances(self, q: JointRows, step: Number = 0) -> np.ndarray:
         """d_im, (K, M) or (N, K, M) [m]."""
+        _require_joints("PointRepulsion", q, self.placed.arm.nq)
         ends = ends_of(self.placed, self.points, np.atleast_2d(q))
         distance = self.obstacles.distances(ends, self.points.radius, step)[0]
         return distance[0] if q.ndim == 1 else distance
@@ -193,21 +191,35 @@ Parts = TypeVar("Parts", bound=Sequence[Potential], covariant=True)
 @checked
 @dataclass(frozen=True, eq=False)
 class Sum(Generic[Parts]):
-    """U = sum of the parts."""
+    """U = sum of the parts.
+
+    Raises
+    ------
+    InputError
+        A part without value and gradient.
+    """
 
     parts: Parts
 
+    def __post_init__(self) -> None:
+        expected = "several potentials, each with a value and a gradient"
+        if not isinstance(self.parts, Sequence):
+            raise InputError("Sum", "parts", self.parts, expected)
+        for place, part in enumerate(self.parts):
+            if not (hasattr(part, "value") and hasattr(part, "gradient")):
+                raise InputError("Sum", f"parts[{place}]", part, expected)
+
     @checked
-    def value(self, q: np.ndarray, step: Number = 0) -> float | np.ndarray:
+    def value(self, q: JointRows, step: Number = 0) -> float | np.ndarray:
         """U."""
         return sum(part.value(q, step) for part in self.parts)
 
     @checked
-    def gradient(self, q: np.ndarray, step: Number = 0) -> np.ndarray:
+    def gradient(self, q: Joints, step: Number = 0) -> np.ndarray:
         """dU/dq (nq,)."""
         return sum((part.gradient(q, step) for part in self.parts), np.zeros_like(q))
 
 
 def _require_joints(source: str, q: np.ndarray, count: int) -> None:
-    if q.shape[-1:] != (count,):
+    if q.ndim > 2 or q.shape[-1:] != (count,):
         raise ConfigurationError(source, "shape of q", q.shape, f"({count},), or rows of {count}")

@@ -91,6 +91,6 @@ def _hulled(scene: Scene, ends: np.ndarray, margin: float) -> frozenset[int]:
     rows = np.array([[body.row for body in bodies[k]] for k in columns], dtype=np.int64)
     cores = place(scene, ends, np.zeros(len(ends))).cores
     gaps = np.empty((len(ends), len(rows)))
-    capsules_capsules(cores, scene.bodies.radius, rows, gaps, np.empty((0, 0, 3, 3)))
+    capsules_capsules(cores, scene.bodies.radius, rows, gaps, np.empty((0, 0, 3, 3)), 0)
     near = np.any(gaps <= margin, axis=0).tolist()
     return frozenset(k for k, one in zip(columns, near, strict=True) if one)

@@ -45,7 +45,7 @@ class SearchProblem:
     @cached_property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Limits a step may not leave; infinite unless they are enforced."""
-        return _limits(self.placed.arm, self.settings.enforce_limits)
+        return self.placed.arm.limits(self.settings.enforce_limits)
 
 
 def search_problem(
@@ -102,13 +102,6 @@ def _kept_points(_: Arm) -> dict[PointSet | tuple[int, ...], tuple[ControlPoints
     return {}
 
 
-def _limits(arm: Arm, enforced: bool) -> tuple[np.ndarray, np.ndarray]:
-    """As :meth:`.Arm.limits`, without a check of a truth value."""
-    if enforced:
-        return arm.lower, arm.upper
-    return np.full(arm.nq, -np.inf), np.full(arm.nq, np.inf)
-
-
 def _plain_ends(
     arm: Arm, start: ArrayLike, goal: ArrayLike, within_limits: bool
 ) -> tuple[np.ndarray, np.ndarray] | None:
@@ -119,7 +112,7 @@ def _plain_ends(
     for end in ends:
         if end.dtype != _FLOAT or end.shape != (arm.nq,):
             return None
-    return ends if _faultless(*ends, *_limits(arm, within_limits)) else None
+    return ends if _faultless(*ends, *arm.limits(within_limits)) else None
 
 
 @kernel

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...kernel import kernel
 from ...scene.edge_kernels import edge_buffers, edge_free
+from ...scene.vectors import copy_row
 
 MET, SPENT, MORE = 0, 1, 2
 
@@ -59,7 +60,8 @@ def search(model, trees, samples, places, step, margin, most, patience):
         count[3] += looked
         if free:
             path = np.empty((2, len(start)))
-            path[0], path[1] = start, goal
+            copy_row(start, path[0])
+            copy_row(goal, path[1])
             return MET, path
     outcome, a, b = grow(model, trees, samples, step, margin, most[0], buffers)
     if outcome != MET:
@@ -86,7 +88,8 @@ def grow(model, trees, samples, step, margin, most, buffers):
         are used up.
     """
     count, reached = trees.counts, np.empty(samples.shape[1])
-    for target in samples:
+    for n in range(len(samples)):
+        target = samples[n]
         if count[3] >= most or max(count[0], count[1]) >= trees.nodes.shape[1] - 1:
             return SPENT, 0, 0
         side = count[2]
@@ -94,7 +97,7 @@ def grow(model, trees, samples, step, margin, most, buffers):
         first = _extended(model, trees, side, target, step, margin, buffers)
         if first < 0:
             continue
-        reached[:] = trees.nodes[side, first]
+        copy_row(trees.nodes[side, first], reached)
         while count[3] < most and count[1 - side] < trees.nodes.shape[1] - 1:
             second = _extended(model, trees, 1 - side, reached, step, margin, buffers)
             if second < 0:
@@ -116,7 +119,7 @@ def _extended(model, trees, side, target, step, margin, buffers):
     way, new = least**0.5, nodes[count[side]]
     if way == 0.0:
         return near
-    new[:] = target
+    copy_row(target, new)
     if way > step:
         for j in range(len(new)):
             new[j] = nodes[near, j] + step / way * (target[j] - nodes[near, j])
@@ -150,12 +153,12 @@ def joined(trees, a, b):
     path = np.empty((before + after, trees.nodes.shape[2]))
     n = a
     for row in range(before - 1, -1, -1):
-        path[row] = trees.nodes[0, n]
+        copy_row(trees.nodes[0, n], path[row])
         n = trees.parent[0, n]
     n = b
     for row in range(before, before + after):
         n = trees.parent[1, n]
-        path[row] = trees.nodes[1, n]
+        copy_row(trees.nodes[1, n], path[row])
     return path
 
 
@@ -169,7 +172,7 @@ def shortened(model, path, places, margin, most, patience, count, buffers):
     rows = np.empty((len(path) + 2 * len(places) + 2, path.shape[1]))
     size = 0
     at = 0
-    rows[0] = path[0]
+    copy_row(path[0], rows[0])
     while at < len(path) - 1:
         ahead = len(path) - 1
         while ahead > at + 1:
@@ -181,7 +184,7 @@ def shortened(model, path, places, margin, most, patience, count, buffers):
                 break
             ahead = at + 1 + (ahead - at - 1) // 2 if count[3] < most else at + 1
         at, size = ahead, size + 1
-        rows[size] = path[at]
+        copy_row(path[at], rows[size])
     size += 1
     new, fruitless = np.empty((2, path.shape[1])), 0
     for n in range(len(places)):
@@ -238,10 +241,10 @@ def _replaced(rows, size, first, last, new):
     shift = first + 3 - (last + 1)
     if shift > 0:
         for k in range(size - 1, last, -1):
-            rows[k + shift] = rows[k]
+            copy_row(rows[k], rows[k + shift])
     elif shift < 0:
         for k in range(last + 1, size):
-            rows[k + shift] = rows[k]
-    rows[first + 1] = new[0]
-    rows[first + 2] = new[1]
+            copy_row(rows[k], rows[k + shift])
+    copy_row(new[0], rows[first + 1])
+    copy_row(new[1], rows[first + 2])
     return size + shift

@@ -80,11 +80,11 @@ def test_the_plain_functions_are_the_matrix_products(chain, seed):
     assert_allclose(plain("manipulability", chain, q), [w], atol=1e-12 * (1 + abs(J).max()) ** 3)
 
 
-def sliding_arm(folder):
-    """Seven joints, two of which slide, with skew axes."""
-    names = [f"l{k}" for k in range(8)]
-    kinds = ["revolute", "prismatic", "revolute", "prismatic", *["revolute"] * 3]
-    axes = ["0 0 1", "0 0.6 0.8", "0 1 0", "1 0 0", "0 1 0", "1 0 0", "0 0 1"]
+def sliding_arm(folder, count):
+    """So many of seven joints with skew axes, two of which slide."""
+    names = [f"l{k}" for k in range(count + 1)]
+    kinds = ["revolute", "prismatic", "revolute", "prismatic", *["revolute"] * 3][:count]
+    axes = ["0 0 1", "0 0.6 0.8", "0 1 0", "1 0 0", "0 1 0", "1 0 0", "0 0 1"][:count]
     limit = "<limit lower='-0.3' upper='0.4' effort='1' velocity='1'/>"
     joints = [
         joint(f"j{k}", names[k], names[k + 1], kind, axis, *([limit] if "p" in kind else []))
@@ -93,14 +93,16 @@ def sliding_arm(folder):
     return load_arm(write(folder, *map(link, names), *joints), shapes="enclosing")
 
 
-XARM = "xarm_description/urdf/xarm7.urdf"  # whose code takes the compiler half a minute
+XARM, SLIDE = "xarm_description/urdf/xarm7.urdf", "seven joints that turn or slide"
+#: Whose code takes the compiler up to half a minute.
+DEAR = {XARM, SLIDE}
 
 
-@pytest.fixture(params=long_where(XARM.__eq__, ["irb120", "panda", XARM, "slide"]))
+@pytest.fixture(params=long_where(DEAR.__contains__, ["irb120", "panda", "slide", *sorted(DEAR)]))
 def arm(request, tmp_path):
-    """6R of a table, 7R, 7R of a URDF, and one with joints that slide."""
-    if request.param == "slide":
-        return sliding_arm(tmp_path)
+    """6R of a table, 7R, 7R of a URDF, and two with joints that slide."""
+    if request.param in ("slide", SLIDE):
+        return sliding_arm(tmp_path, 4 if request.param == "slide" else 7)
     urdf = request.param.endswith(".urdf")
     return load_arm(f"{getModelPath(request.param)}/{request.param}" if urdf else request.param)
 
@@ -158,7 +160,8 @@ from dualarm_repro import load_arm
 arm = load_arm("irb120")
 q = np.linspace(-1, 1, 12).reshape(2, 6)
 print(repr([*arm.fk(q).ravel(), *arm.fk(q[0]).ravel(), *arm.jacobian(q).ravel(),
-            *arm.manipulability(q), arm.manipulability(q[1]), *arm.positions(q).ravel()]))
+            *arm.manipulability(q), arm.manipulability(q[1]), *arm.positions(q).ravel(),
+            *np.nan_to_num(arm.ik_branches(arm.fk(q[[0, 1, 1]]))).ravel()]))
 """
 
 

@@ -8,6 +8,7 @@ from dualarm_repro.control.neural.continuous import integrate_network
 from dualarm_repro.control.neural.fixed_step import simulate_network
 from dualarm_repro.control.neural.network_settings import NetworkSettings
 from dualarm_repro.control.neural.penalty import Penalty
+from dualarm_repro.control.neural.primal_dual import simulate_primal_dual
 from dualarm_repro.control.neural.single_precision import simulate_in_single_precision
 from dualarm_repro.control.neural.stability import odd_and_increasing, proof_steps
 from dualarm_repro.control.problem import QuadraticProgram
@@ -55,6 +56,39 @@ def test_the_integral_takes_out_a_constant_push(crossing):
     assert late[1e3] < 0.5 * late[0.0]
     with pytest.raises(InputError, match="integral"):
         integrate_network(*crossing.parts, ControllerSettings(), NetworkSettings(integral=1.0))
+
+
+@pytest.mark.parametrize(
+    ("state", "line"),
+    [
+        ({"y0": np.zeros(19)}, r"shape of y0 = \(19,\): expected \(20,\)"),
+        (
+            {"y0": np.zeros((1, 20))},
+            r"y0 \(its shape\) = \(1, 20\): expected finite numbers \(n,\)",
+        ),
+        ({"y0": np.full(20, np.nan)}, "y0 = nan"),
+        ({"disturbance": np.zeros((3, 19))}, r"shape of disturbance = \(3, 19\): .*\(steps, 20\)"),
+        ({"disturbance": np.zeros(20)}, r"disturbance \(its shape\) = \(20,\).*\(T, n \+ m\)"),
+        ({"disturbance": [[np.inf] * 20]}, "disturbance = inf"),
+    ],
+)
+def test_states_of_another_network_are_refused(crossing, state, line):
+    """Two arms of seven joints, three task rows each."""
+    given = *crossing.parts, ControllerSettings()
+    with pytest.raises(InputError, match=f"simulate_network: {line}"):
+        simulate_network(*given, NetworkSettings(), **state)
+    if "y0" in state:
+        with pytest.raises(InputError, match=f"integrate_network: {line}"):
+            integrate_network(*given, NetworkSettings(), **state)
+    else:
+        with pytest.raises(InputError, match=f"simulate_primal_dual: {line}"):
+            simulate_primal_dual(*given, **state)
+
+
+@pytest.mark.parametrize("iterations", [0, -1, 10**9])
+def test_the_primal_dual_network_makes_a_bounded_number_of_iterations(crossing, iterations):
+    with pytest.raises(InputError, match=rf"iterations = {iterations}: .*at least 1, at most \d+"):
+        simulate_primal_dual(*crossing.parts, ControllerSettings(), iterations=iterations)
 
 
 def test_single_precision_stays_near_double(crossing):

@@ -1,9 +1,12 @@
 """What is stored of `pan`, and the cell at the position that drawings use."""
 
+from functools import cache
+
 import pytest
 
 from dualarm_repro.ledger import REGISTRY
 from dualarm_repro.ledger.reference import read_reference
+from dualarm_repro.papers.pan.pages.search import algorithm
 from dualarm_repro.papers.pan.reading import at_display
 
 
@@ -23,3 +26,9 @@ def nominal(registry):
 def display(nominal):
     """Cell, jobs and position of the drawings."""
     return at_display(nominal)
+
+
+@pytest.fixture(scope="session")
+def watched():
+    """Runs of the declared search that are watched, each made once: they follow no print."""
+    return cache(algorithm.declared_trace)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from evaluated_items import proved
 
 from dualarm_repro.ledger import prove
 from dualarm_repro.papers.pan.document import SEED, stand_in
@@ -10,8 +11,8 @@ QUICK = ("base_transform", "eq14_size", "constant_pose", "rank_condition", "elli
 
 
 @pytest.fixture(scope="module")
-def proofs(registry):
-    return {name: prove(registry, f"pan.{name}") for name in QUICK}
+def proofs():
+    return {name: proved(f"pan.{name}") for name in QUICK}
 
 
 @pytest.mark.parametrize("name", QUICK)

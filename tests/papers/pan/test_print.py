@@ -5,6 +5,7 @@ from evaluated_items import evaluated
 
 from dualarm_repro.ledger import REGISTRY, evaluate
 from dualarm_repro.ledger.evaluation import prove
+from dualarm_repro.papers.pan.pages.search import algorithm
 
 #: Item, key of what it prints, and something else in its place.
 SLIPS = [
@@ -44,6 +45,11 @@ SLIPS = [
     ("fig11", "inputs", ["number of bits of a gene"]),
 ]  # fmt: skip
 FORMULAS = [f"eq{n:02d}" for n in (1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 15, 16)]
+
+
+@pytest.fixture(autouse=True)
+def watched_once(monkeypatch, watched):
+    monkeypatch.setattr(algorithm, "declared_trace", watched)
 
 
 @pytest.fixture

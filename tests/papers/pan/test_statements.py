@@ -5,12 +5,12 @@ from itertools import product
 
 import numpy as np
 import pytest
+from evaluated_items import evaluated
 
 from dualarm_repro.ledger import REGISTRY, Verdict, evaluate
 from dualarm_repro.papers.pan.pages.optimum.printed_point import fitted, searched
 from dualarm_repro.papers.pan.pages.optimum.problem import constraint_disagreements
 from dualarm_repro.papers.pan.pages.search.algorithm import (
-    declared_trace,
     seen_inputs,
     seen_steps,
     seen_stops,
@@ -27,8 +27,8 @@ AWAY = {"search_box": _FAR, "ga_box": _FAR, "ga_generations": 15}
 
 
 @pytest.fixture(scope="module")
-def trace():
-    return declared_trace()
+def trace(watched):
+    return watched()
 
 
 def test_welder_stays_near_zero_with_a_bent_and_inclined_torch(registry):
@@ -49,7 +49,7 @@ def test_a_choice_makes_the_printed_point_the_optimum(registry):
     assert distance(problem) <= limits["inside_branch"]
     assert loss_at_print(problem) <= limits["three_digits"]
     assert evaluate(REGISTRY, "pan.claim_optimum", found).verdict is Verdict.UNDER_ASSUMPTION
-    assert evaluate(REGISTRY, "pan.claim_optimum").verdict is Verdict.NOT_REPRODUCED
+    assert evaluated("pan.claim_optimum").verdict is Verdict.NOT_REPRODUCED
 
 
 def test_every_reading_is_searched_in_the_words_of_the_ledger(registry):
@@ -63,11 +63,9 @@ def test_every_reading_is_searched_in_the_words_of_the_ledger(registry):
 
 
 def test_position_b_asks_for_faster_joints(registry):
-    calm = evaluate(REGISTRY, "pan.claim_sudden_turns").result.obtained
+    calm = evaluated("pan.claim_sudden_turns").result.obtained
     assert calm["ratio"] > 1.0
-    assert (
-        calm["position"] == evaluate(REGISTRY, "pan.claim_unstable_b").result.obtained["position"]
-    )
+    assert calm["position"] == evaluated("pan.claim_unstable_b").result.obtained["position"]
 
 
 def test_a_start_that_is_lost_was_within_reach(registry):
@@ -76,7 +74,7 @@ def test_a_start_that_is_lost_was_within_reach(registry):
     grid = surveyed(task)
     begun = reaches_point(task.job.cell(), grid.points, 0)
     assert begun[grid.fitness > 0].all()
-    found = evaluate(REGISTRY, "pan.claim_bad_start").result.obtained
+    found = evaluated("pan.claim_bad_start").result.obtained
     assert 0 < found["lost"] < found["begun"] == begun.sum() < len(begun)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from evaluated_items import evaluated
 
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.ledger.settled import settle
@@ -207,9 +208,9 @@ def test_flow_turns_to_the_virtual_point_only_in_a_trap(registry, switching, ver
 
 
 def test_a_longer_upper_arm_exceeds_the_printed_reach(registry):
-    assert evaluate(registry, "xue.fig05").result.obtained["beyond_reach"] == 0
+    assert evaluated("xue.fig05").result.obtained["beyond_reach"] == 0
     assert evaluate(registry, "xue.fig05", {"upper_arm": 1.15}).verdict is Verdict.NOT_REPRODUCED
 
 
 def test_only_joints_without_limits_hold_the_printed_start(registry):
-    assert evaluate(registry, "xue.fig05").result.obtained["holds_start"] == ["full_turns"]
+    assert evaluated("xue.fig05").result.obtained["holds_start"] == ["full_turns"]

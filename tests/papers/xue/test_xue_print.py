@@ -4,6 +4,7 @@ import copy
 
 import numpy as np
 import pytest
+from evaluated_items import evaluated
 
 from dualarm_repro.ledger import Verdict, evaluate
 from dualarm_repro.papers.xue import stored
@@ -40,7 +41,7 @@ SLIPS = {
 @pytest.mark.parametrize("item", SLIPS)
 @pytest.mark.parametrize("which", [0, 1], ids=["nonsense", "slip"])
 def test_a_formula_printed_otherwise_is_not_reproduced(registry, reprint, item, which):
-    assert evaluate(registry, f"xue.{item}").verdict is not Verdict.NOT_REPRODUCED
+    assert evaluated(f"xue.{item}").verdict is not Verdict.NOT_REPRODUCED
     reprint(item, formula=SLIPS[item][which])
     assert evaluate(registry, f"xue.{item}").verdict is Verdict.NOT_REPRODUCED
 
@@ -90,7 +91,7 @@ def test_general_transform_with_the_twist_printed_is_reproduced(registry, reprin
 
 
 def test_a_slip_in_table_1_is_not_reproduced(registry, reprint):
-    assert evaluate(registry, "xue.tab01").verdict is Verdict.INCONSISTENT
+    assert evaluated("xue.tab01").verdict is Verdict.INCONSISTENT
     reprint("tab01", a=["0.285", "1.025", "0.250", "0", "0", "0"])
     assert evaluate(registry, "xue.tab01").verdict is Verdict.NOT_REPRODUCED
     reprint("tab01", a=["0", "0.285", "1.024", "0.250", "0", "0"])
@@ -106,7 +107,7 @@ def test_rows_and_text_are_read_from_print(registry, reprint):
 
 
 def test_goals_printed_as_angles_need_no_inverse(registry, reprint):
-    found = evaluate(registry, "xue.claim_no_ik")
+    found = evaluated("xue.claim_no_ik")
     assert found.result.obtained["calls"] == {"master": 0, "slave": 2}
     assert found.result.obtained["needs_goal_angles"]
     reprint("eq13", formula="U_aat^* = k_a/2*|X - X_g|^2")

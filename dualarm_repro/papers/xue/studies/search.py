@@ -178,6 +178,7 @@ SEARCH = REGISTRY.keeps(
         cells=_cells,
         compute=search_cell,
         seed=20200344,
+        dearest=(1, 3),  # one of them at the end would keep a worker alone
         settings=Chosen(
             "xue",
             (*KEPT, *_SETTINGS),

@@ -278,7 +278,7 @@ def _bare(arm: Arm) -> float:
     links = posing.links_of(arm)
     frames = posing.link_frames(arm.chain, np.eye(4)[:3], np.zeros((1, arm.nq)))
     ends = np.empty((1, len(links.radius), 2, 3))
-    posing.place_cores(frames, links.joint, links.local, ends)
+    posing.place_cores(frames, links.joint, links.local, ends, 0)
     start, along = ends[0, :, 0], ends[0, :, 1] - ends[0, :, 0]
     square = np.maximum(np.sum(along**2, axis=1), 1e-300)
     joints = np.array(_joint_frames(arm, np.zeros(arm.nq)))[:, np.newaxis, :3, 3]

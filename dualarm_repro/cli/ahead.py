@@ -1,0 +1,108 @@
+"""Compiling ahead: what a plan needs late is compiled by a second process while the first one is
+still busy with what it needs early."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
+
+#: Modules of the package whose functions a plan needs late.
+_LATE = ("planning.field.gift_wrapping", "planning.search.splice", "view.scenes.raster")
+
+
+@contextmanager
+def compiling_ahead() -> Iterator[None]:
+    """:func:`rehearse` in a process of its own, where nothing is compiled yet and there is a second
+    core; it ends with the block. What goes wrong there only costs time."""
+    folder = _place()
+    other = None if folder is None else _rehearsal(folder)
+    try:
+        yield
+    finally:
+        if other is not None:
+            other.terminate()
+            other.wait()
+        if folder is not None:
+            rmtree(folder, ignore_errors=True)
+
+
+def _place() -> Path | None:
+    """A folder for the machine code of the second process; None where it would be of no use."""
+    from ..machine_code import compiled_folder, is_kept
+
+    kept = compiled_folder()
+    if _cores() < 2 or kept is None or is_kept(_modules()[0]):
+        return None
+    try:
+        return Path(mkdtemp(prefix=".ahead-", dir=kept))
+    except OSError:  # where nothing can be kept
+        return None
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _modules() -> list[str]:
+    root = __name__.partition(".")[0]
+    return [f"{root}.{name}" for name in _LATE]
+
+
+def _rehearsal(folder: Path) -> subprocess.Popen[bytes] | None:
+    path = os.pathsep.join(str(entry) for entry in sys.path if entry)
+    # -P: nothing of the folder that the user is in is imported.
+    command = [sys.executable, "-P", "-c", f"from {__name__} import rehearse; rehearse()"]
+    nothing = subprocess.DEVNULL
+    try:
+        return subprocess.Popen(
+            command,
+            env={**os.environ, "PYTHONPATH": path, "NUMBA_CACHE_DIR": str(folder)},
+            stdin=nothing,
+            stdout=nothing,
+            stderr=nothing,
+        )
+    except (OSError, TypeError):  # no further process, or no interpreter of its own
+        return None
+
+
+def rehearse() -> None:
+    """Wrap a hull, smooth a path and draw a picture, of anything: the types are those of a plan.
+
+    The machine code is kept in a folder of its own until it is whole, so that two processes do not
+    write that of one function.
+    """
+    import numpy as np
+
+    from ..planning.field.hull_obstacle import hull_track
+    from ..planning.search.splice import smoothed
+    from ..view.scenes.raster import fill_triangles, stroke
+
+    corners = np.stack(np.meshgrid([0.0, 1.0], [0.0, 1.0], [0.0, 1.0]), axis=-1).reshape(1, 8, 3)
+    hull_track(corners)
+    smoothed(np.zeros((5, 2)), 1.0, 1.0)
+    image, depth, color = np.zeros((2, 2, 4)), np.zeros((2, 2)), (0.0, 0.0, 0.0)
+    fill_triangles(corners[:, :3], np.ones((1, 3)), color, 1.0, False, image, depth)
+    stroke(corners[:, :2], 1.0, color, 1.0, image, depth)
+    _publish()
+
+
+def _publish() -> None:
+    """Move the machine code of the late modules to where all is kept, unless there is some."""
+    made = os.environ.get("NUMBA_CACHE_DIR")
+    if not made or not Path(made).name.startswith(".ahead-"):
+        return
+    for name in _modules():
+        for folder in Path(made, name).glob("*"):
+            place = Path(made).parent / name
+            with suppress(OSError):  # there is machine code already
+                place.mkdir(exist_ok=True)
+                folder.rename(place / folder.name)  # only over an empty folder

@@ -1,0 +1,190 @@
+"""What a first plan needs late is compiled by a second process."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from dualarm_repro.cli import ahead
+from dualarm_repro.machine_code import stamp
+
+#: A first plan in a process that tells which functions it compiled itself.
+FIRST_PLAN = """
+import sys
+from numba.core import event
+class Listener(event.Listener):
+    def on_start(self, one):
+        print("compiled", one.data["dispatcher"].py_func.__name__)
+    def on_end(self, one):
+        pass
+event.register("numba:compile", Listener())
+from dualarm_repro.cli import main
+main()
+"""
+
+
+POPEN = subprocess.Popen
+
+
+class Process:
+    """Stands for the second process: what became of it."""
+
+    def __init__(self, command, **how):
+        self.command, self.how, self.calls = command, how, []
+
+    def terminate(self):
+        self.calls.append("terminated")
+
+    def wait(self):
+        self.calls.append("waited for")
+
+
+@pytest.fixture
+def begun(monkeypatch, tmp_path):
+    """Processes that were begun, on two cores and with an empty cache."""
+    found = []
+
+    def popen(command, **how):
+        found.append(Process(command, **how))
+        return found[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", popen)
+    monkeypatch.setattr(ahead, "_cores", lambda: 2)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    return found
+
+
+def test_it_ends_with_the_block_and_leaves_nothing(begun, tmp_path):
+    def block():
+        with ahead.compiling_ahead():
+            assert [path.name[:7] for path in tmp_path.iterdir()] == [".ahead-"]
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        block()
+    assert [one.calls for one in begun] == [["terminated", "waited for"]]
+    assert not list(tmp_path.iterdir())
+
+
+def _on_one_core(monkeypatch, tmp_path):
+    monkeypatch.setattr(ahead, "_cores", lambda: 1)
+
+
+def _with_machine_code(monkeypatch, tmp_path):
+    module = "dualarm_repro.planning.field.gift_wrapping"
+    folder = tmp_path / module / stamp(module)[:16]
+    folder.mkdir(parents=True)
+    (folder / "wrap_hulls.nbi").touch()
+
+
+def _without_a_cache(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_CACHE_DIR")
+    monkeypatch.setenv("DUALARM_CACHE", "off")
+
+
+def _with_a_cache_that_cannot_be_written(monkeypatch, tmp_path):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "/proc/none")
+
+
+@pytest.mark.parametrize(
+    "where",
+    [_on_one_core, _with_machine_code, _without_a_cache, _with_a_cache_that_cannot_be_written],
+)
+def test_where_it_is_of_no_use_it_is_not_begun(monkeypatch, tmp_path, begun, where):
+    where(monkeypatch, tmp_path)
+    with ahead.compiling_ahead():
+        assert begun == []
+
+
+@pytest.mark.parametrize("fault", [BlockingIOError, TypeError])
+def test_a_system_without_further_processes_only_costs_time(monkeypatch, begun, fault):
+    def popen(*_, **__):
+        raise fault
+
+    monkeypatch.setattr(subprocess, "Popen", popen)
+    done = []
+    with ahead.compiling_ahead():
+        done.append("the plan")
+    assert done == ["the plan"]
+
+
+def test_the_process_says_nothing_and_imports_nothing_of_the_users_folder(
+    monkeypatch, begun, tmp_path
+):
+    with ahead.compiling_ahead():
+        pass
+    (one,) = begun
+    assert one.how["stdout"] == one.how["stderr"] == subprocess.DEVNULL
+    folder = tmp_path / "of the user"
+    folder.mkdir()
+    (folder / "random.py").write_text("raise SystemExit('run')")
+    monkeypatch.setattr(subprocess, "Popen", POPEN)
+    tried = [*one.command[:-1], f"import random; import {ahead.__name__}"]
+    environment = {**one.how["env"], "PYTHONSAFEPATH": ""}
+    subprocess.run(tried, cwd=folder, env=environment, check=True)
+
+
+@pytest.mark.parametrize("taken", [False, True])
+def test_machine_code_is_moved_where_there_is_none(monkeypatch, tmp_path, taken):
+    made, module = tmp_path / ".ahead-1", "dualarm_repro.view.scenes.raster"
+    for name in (module, "dualarm_repro.scene.vectors"):
+        (made / name / "stamp").mkdir(parents=True)
+        (made / name / "stamp" / "one.nbi").write_text("new")
+    if taken:
+        (tmp_path / module / "stamp").mkdir(parents=True)
+        (tmp_path / module / "stamp" / "one.nbi").write_text("old")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(made))
+    ahead._publish()
+    assert (tmp_path / module / "stamp" / "one.nbi").read_text() == ("old" if taken else "new")
+    assert not (tmp_path / "dualarm_repro.scene.vectors").exists(), "the first process writes these"
+
+
+def test_machine_code_of_another_folder_stays_where_it_is(monkeypatch, tmp_path):
+    made = tmp_path / "kept" / "dualarm_repro.view.scenes.raster" / "stamp"
+    made.mkdir(parents=True)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
+    ahead._publish()
+    assert made.is_dir()
+
+
+def test_everything_that_is_rehearsed_is_called(monkeypatch):
+    called = []
+    for name in (
+        "planning.field.hull_obstacle.hull_track",
+        "planning.search.splice.smoothed",
+        "view.scenes.raster.fill_triangles",
+        "view.scenes.raster.stroke",
+    ):
+        path = f"dualarm_repro.{name}"
+        monkeypatch.setattr(path, lambda *_, name=name: called.append(name.split(".")[-1]))
+    ahead.rehearse()
+    assert called == ["hull_track", "smoothed", "fill_triangles", "stroke"]
+
+
+@pytest.mark.long(short="test_everything_that_is_rehearsed_is_called")
+def test_after_the_rehearsal_the_plan_compiles_none_of_it(tmp_path):
+    environment = {**os.environ, "DUALARM_CACHE": str(tmp_path)}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    own = tmp_path / "compiled" / ".ahead-1"
+    own.mkdir(parents=True)
+    rehearsed = "from dualarm_repro.cli.ahead import rehearse; rehearse()"
+    subprocess.run(
+        [sys.executable, "-c", rehearsed],
+        env={**environment, "NUMBA_CACHE_DIR": str(own)},
+        check=True,
+    )
+    example = ["data/scenes/example_tasks.yaml", "--method", "apf-bidirectional"]
+    done = subprocess.run(
+        [sys.executable, "-c", FIRST_PLAN, "plan", *example, "--out", str(tmp_path / "out")],
+        env=environment,
+        cwd=Path(__file__).parents[2],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    lines = done.stdout.splitlines()
+    compiled = {line.split()[1] for line in lines if line.startswith("compiled ")}
+    assert not compiled & {"wrap_hulls", "_wrapped", "_smooth", "fill_triangles", "stroke"}
+    assert compiled, "what depends on the arm is compiled"
