@@ -27,7 +27,7 @@ NOT_USABLE = 3
 #: New objects after which garbage is sought, and how often among the older ones. Loading and
 #: compiling make many that stay, and almost no garbage: Python's own (700, 10, 10) would cost a
 #: tenth of the time of a first plan.
-_COLLECT_AFTER = (100_000, 20, 50)
+COLLECT_AFTER = (100_000, 20, 50)
 
 
 def process() -> None:
@@ -38,7 +38,7 @@ def process() -> None:
 def main(last: bool = False) -> None:
     """Exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not be run, 130
     when interrupted; ``last`` if the process ends with it."""
-    gc.set_threshold(*_COLLECT_AFTER)
+    gc.set_threshold(*COLLECT_AFTER)
     with _interruptions(last) as seen:
         try:
             _write_what_the_encoding_lacks()

@@ -15,6 +15,9 @@ from tempfile import mkdtemp
 #: Modules of the package whose functions a plan needs late.
 _LATE = ("planning.field.gift_wrapping", "planning.search.splice", "view.scenes.raster")
 
+#: Begins the name of the folder in which the second process keeps what it compiles.
+_APART = ".ahead-"
+
 
 @contextmanager
 def compiling_ahead() -> Iterator[None]:
@@ -40,7 +43,7 @@ def _place() -> Path | None:
     if _cores() < 2 or kept is None or is_kept(_modules()[0]):
         return None
     try:
-        return Path(mkdtemp(prefix=".ahead-", dir=kept))
+        return Path(mkdtemp(prefix=_APART, dir=kept))
     except OSError:  # where nothing can be kept
         return None
 
@@ -98,7 +101,7 @@ def rehearse() -> None:
 def _publish() -> None:
     """Move the machine code of the late modules to where all is kept, unless there is some."""
     made = os.environ.get("NUMBA_CACHE_DIR")
-    if not made or not Path(made).name.startswith(".ahead-"):
+    if not made or not Path(made).name.startswith(_APART):
         return
     for name in _modules():
         for folder in Path(made, name).glob("*"):

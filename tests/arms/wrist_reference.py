@@ -15,24 +15,7 @@ _TURN = 2.0 * math.pi
 
 
 def inverse_kinematics(geometry, poses, reference, lower, upper):
-    """All branches for every flange pose.
-
-    Parameters
-    ----------
-    geometry : WristGeometry
-    poses : ndarray (N, 4, 4)
-    reference : ndarray (6,)
-        Angles [rad]: each joint is the representative nearest to it, and equals it where
-        undetermined (q1 with the wrist centre on axis 1, q2 with it on axis 2, q4 with aligned
-        axes 4 and 6).
-    lower, upper : ndarray (6,)
-        Limits [rad]; infinite ones allow every angle.
-
-    Returns
-    -------
-    ndarray (N, 8, 6)
-        NaN where a branch does not exist or has no representative within the limits.
-    """
+    """What :func:`dualarm_repro.arms.wrist_ik.inverse_kinematics` promises."""
     out = np.empty((len(poses), BRANCHES, 6))
     sine, cosine, angle = np.empty(6 * BRANCHES), np.empty(6 * BRANCHES), np.empty(6 * BRANCHES)
     near = np.empty(6 * BRANCHES)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 from typing import Any
 
-THRESHOLDS = (100_000, 20, 50)
+from dualarm_repro.cli import COLLECT_AFTER as THRESHOLDS
 
 
 def setup(app: Any) -> dict[str, Any]:
