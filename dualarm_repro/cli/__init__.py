@@ -134,6 +134,7 @@ def _interruptions(last: bool) -> Iterator[list[int]]:
     After the ``last`` command of a process there is nothing left to interrupt but its end.
     """
     seen: list[int] = []
+    hook = sys.unraisablehook
 
     def stop(number: int, frame: FrameType | None) -> None:
         seen.append(number)
@@ -146,6 +147,11 @@ def _interruptions(last: bool) -> Iterator[list[int]]:
     except ValueError:  # not the main thread
         yield seen
         return
-    yield seen
-    if not seen:
-        signal.signal(signal.SIGINT, signal.SIG_IGN if last else before)
+    try:
+        yield seen
+    finally:
+        if last:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+        else:
+            signal.signal(signal.SIGINT, before)
+            sys.unraisablehook = hook
