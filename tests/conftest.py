@@ -32,7 +32,7 @@ def pytest_configure():
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call():
-    """What hears Ctrl-C after a test is what did before it, else the next ones try something else."""
+    """What hears Ctrl-C after a test is what did before it: the next ones rely on it."""
     before = signal.getsignal(signal.SIGINT)
     found = yield
     assert signal.getsignal(signal.SIGINT) is before
