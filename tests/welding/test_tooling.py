@@ -158,6 +158,7 @@ def test_the_cores_of_a_workpiece_contain_its_flat_ends():
         (lambda: Tools("axial", 0.0, 0.06, Torch(0.3, 0, 0.02, 0), "x"), "tools: gripper_length"),
         (lambda: base_poses(np.tile(np.eye(4), (3, 1, 1)), "both"), "inverted, literal"),
         (lambda: base_poses(np.zeros((3, 4, 4)), "literal"), "matrices that have an inverse"),
+        (lambda: base_poses(1e308 - 1e308 * np.eye(4)[None], "literal"), "an inverse"),
     ],
 )
 def test_each_wrong_part_is_named_in_one_line(make, line):
