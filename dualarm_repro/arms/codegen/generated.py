@@ -8,9 +8,8 @@ from hashlib import sha256
 from typing import Any
 
 import numpy as np
-from numba.core import config
 
-from ...kernel import kernel
+from ...kernel import COMPILES, kernel
 from ..trigonometry import FAR, sincos
 from . import recursions
 from .lowering import TINY, lowered
@@ -19,7 +18,6 @@ from .simd import STORES
 from .source import block_function, inputs_of, plain_function
 from .structure import Structure
 
-_NUMBA: Any = config
 Carried = tuple[tuple[int, Vector], ...]
 #: Function of flat configurations, constants and a matrix that takes the results.
 Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
@@ -63,7 +61,7 @@ class Generated:
         Its name holds the digest of its text and of the program, under which its machine code is
         kept. Where numba is switched off it is a function that does nothing and says so.
         """
-        if _NUMBA.DISABLE_JIT:
+        if not COMPILES:
             return nothing
         parts = self._program, self._results, self._structure
         text = block_function("block", *parts)
@@ -86,7 +84,7 @@ class Generated:
             flat = flat.copy()
         if not self.compiled(flat, constants, out.reshape(-1, shape[-1])):
             far = np.ones(len(q), dtype=bool)
-            if not _NUMBA.DISABLE_JIT:
+            if COMPILES:
                 far = ~(np.abs(q) <= FAR).all(axis=1)
             out[far] = self.by_numpy(q[far], constants).reshape(-1, *shape)
         return out
