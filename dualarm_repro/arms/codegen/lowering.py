@@ -1,8 +1,8 @@
 """Straight-line programs as instructions of LLVM.
 
 As text of Python every statement would be parsed, typed and translated one by one, which takes the
-compiler three times as long as all the rest. The instructions are those that it would make of the
-text, in the same order.
+compiler longer than all the rest. The instructions are those that it would make of the text, in the
+same order.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ _NUMBER = ir.DoubleType()
 def lowered(program: Program, results: Sequence[Term], given: Sequence[str]) -> Any:
     """``put(values, out, to, stride)``: the e-th result of the program into out[to + e stride].
 
+    Results that are constants are left out.
+
     Parameters
     ----------
     given
         Names of the inputs, in the order in which ``values`` holds their numbers.
-
-    Results that are constants are left out.
     """
 
     def put(
