@@ -64,9 +64,11 @@ def _read(builder: ir.IRBuilder, known: dict[str, ir.Value], text: str) -> ir.Va
     return known[text] if text in known else _NUMBER(float(text))
 
 
-def _root(builder: ir.IRBuilder, x: ir.Value) -> ir.Value:
-    root = builder.module.declare_intrinsic("llvm.sqrt", [_NUMBER])
-    return builder.call(root, [x])
+def _of_llvm(name: str) -> Callable[..., ir.Value]:
+    def made(builder: ir.IRBuilder, x: ir.Value) -> ir.Value:
+        return builder.call(builder.module.declare_intrinsic(name, [_NUMBER]), [x])
+
+    return made
 
 
 def _reciprocal(builder: ir.IRBuilder, x: ir.Value) -> ir.Value:
@@ -79,6 +81,7 @@ _INSTRUCTIONS: dict[str, Callable[..., ir.Value]] = {
     "*": ir.IRBuilder.fmul,
     "+": ir.IRBuilder.fadd,
     "-": ir.IRBuilder.fsub,
-    "sqrt": _root,
+    "abs": _of_llvm("llvm.fabs"),
+    "sqrt": _of_llvm("llvm.sqrt"),
     "reciprocal": _reciprocal,
 }

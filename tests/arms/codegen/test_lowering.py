@@ -26,6 +26,7 @@ def every_operation(program):
         program.plus(-X, -Y),
         program.plus(program.times(X, product), two),
         -ONE,
+        program.function("abs", -Y),
         program.function("sqrt", square),
         program.function("reciprocal", square),
         -program.function("reciprocal", -square),
