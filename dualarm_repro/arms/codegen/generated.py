@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from hashlib import sha256
 from typing import Any
 
 import numpy as np
-from numba.core import config
 
-from ...kernel import kernel
+from ...kernel import COMPILES, kernel
 from ..trigonometry import FAR, sincos
 from . import recursions
+from .lowering import TINY, lowered
 from .program import Program, Term, Vector
 from .simd import STORES
-from .source import block_function, plain_function
+from .source import block_function, inputs_of, plain_function
 from .structure import Structure
 
-_NUMBA: Any = config
 Carried = tuple[tuple[int, Vector], ...]
 #: Function of flat configurations, constants and a matrix that takes the results.
 Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
@@ -60,16 +58,19 @@ class Generated:
     def compiled(self) -> Compiled:
         """The loop over configurations, see :func:`.source.block_function`.
 
-        Its name holds the digest of its text, under which its machine code is kept. Where numba is
-        switched off it is a function that does nothing and says so.
+        Its name holds the digest of its text and of the program, under which its machine code is
+        kept. Where numba is switched off it is a function that does nothing and says so.
         """
-        if _NUMBA.DISABLE_JIT:
+        if not COMPILES:
             return nothing
-        text = block_function("block", self._program, self._results, self._structure)
-        name = f"{self.name}_{sha256(text.encode()).hexdigest()[:16]}"
+        parts = self._program, self._results, self._structure
+        text = block_function("block", *parts)
+        name = f"{self.name}_{sha256((self.source + text).encode()).hexdigest()[:16]}"
         text = text.replace("def block(", f"def {name}(", 1)
-        exec(compile(text, f"<generated {name}>", "exec"), _COMPILED)
-        made: Compiled = kernel(_COMPILED[name])
+        put = lowered(self._program, self._results, inputs_of(*parts))
+        scope = {**_COMPILED, "put": put}
+        exec(compile(text, f"<generated {name}>", "exec"), scope)
+        made: Compiled = kernel(scope[name])
         return made
 
     def rows(self, q: np.ndarray, constants: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
@@ -83,7 +84,7 @@ class Generated:
             flat = flat.copy()
         if not self.compiled(flat, constants, out.reshape(-1, shape[-1])):
             far = np.ones(len(q), dtype=bool)
-            if not _NUMBA.DISABLE_JIT:
+            if COMPILES:
                 far = ~(np.abs(q) <= FAR).all(axis=1)
             out[far] = self.by_numpy(q[far], constants).reshape(-1, *shape)
         return out
@@ -112,17 +113,8 @@ def nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
     return False
 
 
-#: Squares up to here count as 0: their reciprocals would overflow.
-TINY = 1e-290
-
-
 def _reciprocals(x: np.ndarray) -> np.ndarray:
     return np.divide(1.0, x, out=np.zeros_like(x), where=x > TINY)
-
-
-@kernel
-def _reciprocal(x):
-    return 1.0 / x if x > TINY else 0.0
 
 
 #: What the compiled loops refer to.
@@ -130,8 +122,6 @@ _COMPILED: dict[str, Any] = {
     "__name__": __name__,
     "FAR": FAR,
     "np": np,
-    "reciprocal": _reciprocal,
     "sincos": sincos,
-    "sqrt": math.sqrt,
     **{f"store_{size}": store for size, store in STORES.items()},
 }

@@ -1,9 +1,9 @@
 """Straight-line programs as source of Python: a plain function, and a loop over configurations.
 
-Both are made of the same lines. The plain function takes numbers, arrays or symbols. The loop is
-for the compiler: configurations are taken in blocks of ``LANES``, and all that a block reads and
-writes lies in one buffer at constant places, so that the compiler sees no aliasing and turns the
-inner loops into SIMD code.
+The plain function takes numbers, arrays or symbols. The loop is for the compiler, which is given
+the program as instructions (:mod:`.lowering`): configurations are taken in blocks of ``LANES``, and
+all that a block reads and writes lies in one buffer at constant places, so that the compiler sees
+no aliasing and turns the inner loops into SIMD code.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
     turning, sliding = _joints(used, chain)
     # Places in the buffer: n joint values, then what is written.
     written = [(n + e) * LANES for e in range(m)]
-    lines, values = program.lines(results)
-    places = list(zip(written, values, results, strict=True))
+    inputs = ", ".join(inputs_of(program, results, chain))
+    constant = [(e, term.text) for e, term in enumerate(results) if not term.name]
     text = [
         f"def {name}(q, k, matrix):",
         "    out = matrix.reshape(-1)",
@@ -58,12 +58,13 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         f"    if q.size == {n}:",
         *[f"        d{j + 1} = q[{j}]" for j in sliding],
         *[f"        s{j + 1}, c{j + 1} = sincos(q[{j}])" for j in turning],
-        *[f"        {line}" for line in lines],
-        *[f"        out[{e}] = {value}" for e, value in enumerate(values)],
+        *[f"        put(({inputs},), out, 0, 1)"] * bool(inputs),
+        *[f"        out[{e}] = {value}" for e, value in constant],
         f"        return {' and '.join(f'abs(q[{j}]) <= FAR' for j in range(n))}",
     ]
     text += [f"    w = np.zeros({(n + m) * LANES})"]
-    text += [f"    w[{at}:{at + LANES}] = {v}" for at, v, term in places if not term.name]
+    text += [f"    for i in range({LANES}):"] if constant else []
+    text += [f"        w[{written[e]} + i] = {value}" for e, value in constant]
     text += [
         "    near = True",
         f"    count = q.size // {n}",
@@ -76,8 +77,7 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         *[f"            near &= abs(w[{j * LANES} + i]) <= FAR" for j in range(n)],
         *[f"            d{j + 1} = w[{j * LANES} + i]" for j in sliding],
         *[f"            s{j + 1}, c{j + 1} = sincos(w[{j * LANES} + i])" for j in turning],
-        *[f"            {line}" for line in lines],
-        *[f"            w[{at} + i] = {v}" for at, v, term in places if term.name],
+        *[f"            put(({inputs},), w, {n * LANES} + i, {LANES})"] * bool(inputs),
         f"        to = start * {m}",
         f"        if rows == {LANES}:",
         f"            for i in range(0, {LANES}, {WIDTH}):",
@@ -98,6 +98,13 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         "    return near",
     ]
     return "\n".join(text) + "\n"
+
+
+def inputs_of(program: Program, results: Sequence[Term], chain: Structure) -> list[str]:
+    """Names of what a program reads: sines, cosines, displacements and constants."""
+    used = program.names(results)
+    joints = [f"{letter}{j + 1}" for letter in "scd" for j in range(chain.joints)]
+    return [name for name in joints if name in used] + [f"k{i}" for i in _constants(used)]
 
 
 def _constants(used: set[str]) -> list[int]:
