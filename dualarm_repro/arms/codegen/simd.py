@@ -82,7 +82,18 @@ def _vector_at(builder: ir.IRBuilder, data: ir.Value, place: ir.Value, width: in
     return builder.bitcast(pointer, ir.VectorType(_DOUBLE, width).as_pointer())
 
 
+def _fence(typingctx: Any) -> tuple[Any, Callable[..., None]]:
+    def codegen(context: Any, builder: Any, sig: Any, arguments: Any) -> None:
+        builder.fence("seq_cst")
+
+    return types.void(), codegen
+
+
 #: Of a number of entries k: ``store(w, at, stride, out, to, step)`` copies w[at + e stride + i] to
 #: out[to + i step + e] for e < k and i < WIDTH.
 STORES = {entries: _storing(entries, False) for entries in (8, 4, 2, 1)}
-STREAMS = {entries: _storing(entries, True) for entries in (8, 4, 2, 1)}
+#: The same past the cache, for the entries of a whole line at its beginning: what is too large to
+#: stay in the cache is not read before it is written.
+STREAMS = {WIDTH: _storing(WIDTH, True)}
+#: ``written()``: from here on other threads see what went past the cache.
+written: Any = intrinsic(_fence)

@@ -33,12 +33,19 @@ def plain_function(name: str, program: Program, results: Sequence[Term], chain: 
     return f"def {name}(s, c, d, k):\n    {body}\n"
 
 
-def block_function(name: str, program: Program, results: Sequence[Term], chain: Structure) -> str:
+def block_function(
+    name: str,
+    program: Program,
+    results: Sequence[Term],
+    chain: Structure,
+    past_the_cache: bool = False,
+) -> str:
     """Source of ``name(q, k, matrix)`` for flat q (N n), constants k and results in a matrix of N m
     entries.
 
     It returns whether the sizes fit and all of q is so near to 0, and finite, that the results can
-    be taken.
+    be taken. With ``past_the_cache`` the matrix, which has to begin a line of the cache and to have
+    a whole number of them for each configuration, is written without being read into the cache.
     """
     n, m = chain.joints, len(results)
     used = program.names(results)
@@ -82,11 +89,11 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         f"        if rows == {LANES}:",
         f"            for i in range(0, {LANES}, {WIDTH}):",
     ]
-    entry = 0
+    entry, store = 0, "stream" if past_the_cache else "store"
     for size in STORES:
         while m - entry >= size:
             text.append(
-                f"                store_{size}(w, {written[entry]} + i, {LANES}, "
+                f"                {store}_{size}(w, {written[entry]} + i, {LANES}, "
                 f"out, to + {m} * i + {entry}, {m})"
             )
             entry += size
@@ -95,6 +102,7 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         "            for i in range(rows):",
         f"                for e in range({m}):",
         f"                    out[to + {m} * i + e] = w[{n * LANES} + e * {LANES} + i]",
+        *["    written()"] * past_the_cache,
         "    return near",
     ]
     return "\n".join(text) + "\n"

@@ -15,9 +15,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from dualarm_repro import load_arm
 from dualarm_repro.arms.chain import SlidingChain
-from dualarm_repro.arms.codegen.generated import generated
+from dualarm_repro.arms.codegen import generated as generated_code
+from dualarm_repro.arms.codegen.generated import LARGE, generated
 from dualarm_repro.arms.codegen.structure import Constants, structure_of
 from dualarm_repro.arms.kernels import Kinematics
+from dualarm_repro.arms.trigonometry import FAR
 from dualarm_repro.errors import ConfigurationError
 from dualarm_repro.scene.posing import cores_in, frames_of, links_of
 
@@ -146,6 +148,31 @@ def test_what_one_call_refuses():
         assert_array_equal(call(frozen), call(np.ones(6)))
         assert_array_equal(call(np.ones(12)[::2]), call(np.ones(6)))
         assert_array_equal(call(np.ones(6, dtype=int)), call(np.ones(6)))
+
+
+@pytest.mark.parametrize("count", [1, 15, 16, 100])
+def test_past_the_cache_the_same_is_written(count, rng, monkeypatch):
+    arm = load_arm("irb120")
+    q = arm.random_configurations(count, rng)
+    q[0, 0] = 2 * FAR  # [rad], for the plain function
+    expected = arm.fk(q)
+    monkeypatch.setattr(generated_code, "LARGE", 1)
+    monkeypatch.setattr(arm._kinematics.pose, "compiled", None)
+    found = arm.fk(q)
+    assert_array_equal(found, expected)
+    assert found.flags.writeable
+    assert found.flags.c_contiguous
+
+
+def test_only_large_matrices_of_whole_lines_go_past_the_cache(monkeypatch):
+    q = np.zeros((LARGE // 16, 6))
+    kinematics = load_arm("irb120")._kinematics
+    monkeypatch.setattr(kinematics.pose, "streamed", None)
+    monkeypatch.setattr(kinematics.jacobian, "streamed", None)
+    assert len(kinematics.pose.rows(q[1:], kinematics.constants, (4, 4))) == len(q) - 1
+    assert len(kinematics.jacobian.rows(q, kinematics.constants, (6, 6))) == len(q)
+    with pytest.raises(TypeError):
+        kinematics.pose.rows(q, kinematics.constants, (4, 4))
 
 
 def test_arms_that_differ_in_lengths_share_their_code():
