@@ -11,6 +11,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from shutil import rmtree
 from tempfile import mkdtemp
+from threading import Thread
+
+from ..interruption import uninterrupted
 
 #: Modules of the package whose functions are compiled ahead; the first one tells if that was done.
 _AHEAD = (
@@ -28,16 +31,20 @@ _APART = ".ahead-"
 def compiling_ahead(tasks: Path) -> Iterator[None]:
     """:func:`rehearse` in a process of its own, where nothing is compiled yet and there is a second
     core; it ends with the block. What goes wrong there only costs time."""
-    folder = _place()
-    other = None if folder is None else _rehearsal(folder, tasks)
+    folder: Path | None = None
+    other: subprocess.Popen[bytes] | None = None
     try:
+        with uninterrupted():
+            if folder := _place():
+                other = _rehearsal(folder, tasks)
         yield
     finally:
-        if other is not None:
-            other.terminate()
-            other.wait()
-        if folder is not None:
-            rmtree(folder, ignore_errors=True)
+        with uninterrupted():
+            if other is not None:
+                other.kill()  # it may be deaf to any other signal, or stopped
+                other.communicate()
+            if folder is not None:
+                rmtree(folder, ignore_errors=True)
 
 
 def _place() -> Path | None:
@@ -69,7 +76,10 @@ def _modules() -> list[str]:
 def _rehearsal(folder: Path, tasks: Path) -> subprocess.Popen[bytes] | None:
     path = os.pathsep.join(str(entry) for entry in sys.path if entry)
     # There is almost no garbage, and looking for it would cost a tenth of the time.
-    code = f"import gc, sys; gc.disable(); from {__name__} import rehearse; rehearse(sys.argv[1])"
+    code = (
+        f"import gc, sys; gc.disable(); from {__name__} import end_with_the_first, rehearse; "
+        "end_with_the_first(); rehearse(sys.argv[1])"
+    )
     # -P: nothing of the folder that the user is in is imported.
     command = [sys.executable, "-P", "-c", code, str(tasks)]
     nothing = subprocess.DEVNULL
@@ -77,12 +87,25 @@ def _rehearsal(folder: Path, tasks: Path) -> subprocess.Popen[bytes] | None:
         return subprocess.Popen(
             command,
             env={**os.environ, "PYTHONPATH": path, "NUMBA_CACHE_DIR": str(folder)},
-            stdin=nothing,
+            stdin=subprocess.PIPE,
             stdout=nothing,
             stderr=nothing,
         )
     except (OSError, TypeError):  # no further process, or no interpreter of its own
         return None
+
+
+def end_with_the_first() -> None:
+    """Let this process end when its standard input does, a pipe from the first one, however that
+    ends; what it keeps apart goes as well."""
+
+    def watch() -> None:
+        os.read(0, 1)
+        if folder := _own_folder():
+            rmtree(folder, ignore_errors=True)
+        os._exit(0)
+
+    Thread(target=watch, daemon=True).start()
 
 
 def rehearse(tasks: str) -> None:
@@ -127,14 +150,20 @@ def _move_arms(tasks: Path) -> None:
 
 def _publish() -> None:
     """Hand over the machine code of functions of which there is none where all is kept."""
-    made = os.environ.get("NUMBA_CACHE_DIR")
-    if not made or not Path(made).name.startswith(_APART):
+    made = _own_folder()
+    if made is None:
         return
     for name in _modules():
-        for index in Path(made, name).glob("*/*.nbi"):
-            place = Path(made).parent / index.parent.relative_to(made)
+        for index in (made / name).glob("*/*.nbi"):
+            place = made.parent / index.parent.relative_to(made)
             with suppress(OSError):  # there is machine code already
                 place.mkdir(parents=True, exist_ok=True)
                 # An index after all that it names, so that it is whole at once.
                 for part in (*index.parent.glob(f"{index.stem}.*.nbc"), index):
                     os.link(part, place / part.name)
+
+
+def _own_folder() -> Path | None:
+    """Where this process keeps machine code apart; None if it does not."""
+    made = Path(os.environ.get("NUMBA_CACHE_DIR", ""))
+    return made if made.name.startswith(_APART) else None

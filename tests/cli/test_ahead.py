@@ -1,6 +1,7 @@
 """What a first plan needs late is compiled by a second process."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -36,10 +37,10 @@ class Process:
     def __init__(self, command, **how):
         self.command, self.how, self.calls = command, how, []
 
-    def terminate(self):
-        self.calls.append("terminated")
+    def kill(self):
+        self.calls.append("killed")
 
-    def wait(self):
+    def communicate(self):
         self.calls.append("waited for")
 
 
@@ -66,7 +67,7 @@ def test_it_ends_with_the_block_and_leaves_nothing(begun, tmp_path):
 
     with pytest.raises(ZeroDivisionError):
         block()
-    assert [one.calls for one in begun] == [["terminated", "waited for"]]
+    assert [one.calls for one in begun] == [["killed", "waited for"]]
     assert not list(tmp_path.iterdir())
 
 
@@ -88,6 +89,58 @@ def _without_a_cache(monkeypatch, tmp_path):
 
 def _with_a_cache_that_cannot_be_written(monkeypatch, tmp_path):
     monkeypatch.setenv("NUMBA_CACHE_DIR", "/proc/none")
+
+
+@pytest.mark.parametrize("moment", ["begin", "end"])
+def test_an_interruption_leaves_neither_process_nor_folder(begun, tmp_path, monkeypatch, moment):
+    begin, end = subprocess.Popen, Process.communicate
+
+    def interrupted(at, call):
+        def called(*given, **named):
+            found = call(*given, **named)
+            if moment == at:
+                signal.raise_signal(signal.SIGINT)
+            return found
+
+        return called
+
+    monkeypatch.setattr(subprocess, "Popen", interrupted("begin", begin))
+    monkeypatch.setattr(Process, "communicate", interrupted("end", end))
+    with pytest.raises(KeyboardInterrupt), ahead.compiling_ahead(TASKS):
+        assert moment == "end"
+    assert [one.calls for one in begun] == [["killed", "waited for"]]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_folder_of_machine_code_is_made(begun, tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "of" / "nobody"))
+    with ahead.compiling_ahead(TASKS):
+        assert len(list((tmp_path / "of" / "nobody").iterdir())) == 1
+
+
+def test_the_second_process_ends_with_the_first_however_that_ends(tmp_path):
+    own = tmp_path / ".ahead-1"
+    own.mkdir()
+    code = f"import time; from {ahead.__name__} import end_with_the_first as f; f(); "
+    second = subprocess.Popen(
+        [sys.executable, "-c", code + "print('begun', flush=True); time.sleep(600)"],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(own)},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    second.stdout.readline()
+    assert own.is_dir()
+    second.stdin.close()  # as the system does when the first one is gone
+    second.stdout.close()
+    assert second.wait(60) == 0
+    assert not own.exists()
+
+
+@pytest.mark.parametrize(("method", "count"), [("apf-bidirectional", 1), ("all", 0)])
+def test_a_plan_is_compiled_ahead(begun, dualarm, tmp_path, method, count):
+    scene = tmp_path / "none.yaml"
+    assert dualarm("plan", str(scene), "--method", method)[0] == 2
+    assert [one.command[-1] for one in begun] == [str(scene)] * count
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """What a newcomer may expect: examples, quick answers, plain pipes, one line at the end."""
 
+import gc
 import json
 import os
 import pty
@@ -331,10 +332,14 @@ def test_however_a_command_ends_ctrl_c_belongs_to_the_caller_again(monkeypatch, 
     monkeypatch.setenv("DUALARM_TRACEBACK", "1")
     monkeypatch.setattr("dualarm_repro.papers.load", ends)
     monkeypatch.setattr(sys, "argv", ["dualarm", "show", "xue.tab01"])
-    before = signal.getsignal(signal.SIGINT), sys.unraisablehook
+
+    def habits():
+        return signal.getsignal(signal.SIGINT), sys.unraisablehook, gc.get_threshold()
+
+    before = habits()
     with pytest.raises(ZeroDivisionError if ending is ZeroDivisionError else SystemExit):
         cli.main()
-    assert (signal.getsignal(signal.SIGINT), sys.unraisablehook) == before
+    assert habits() == before
 
 
 DAMAGES = ("[]", "{}", '{"code": 1, "cells": 1, "inputs": {}, "table_sha256": ""}', "{")

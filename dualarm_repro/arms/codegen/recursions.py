@@ -118,9 +118,9 @@ def manipulability(program: Program, chain: Structure) -> list[Term]:
     """w = sqrt(det(J J^T)) (1): of six joints |det J|, of more the product of the norms of
     J's orthogonalised rows.
 
-    Both keep full accuracy near singularities, where det(J J^T) would lose half of the digits
-    (Yoshikawa 1985 for the measure). The measure depends neither on the point of the body nor on
-    the axes: those of the joint are taken that leave the fewest operations.
+    Both err by the round-off of products near singularities, where det(J J^T) would lose half of
+    the digits (Yoshikawa 1985 for the measure). The measure depends neither on the point of the
+    body nor on the axes: those of the joint are taken that leave the fewest operations.
     """
     if chain.joints < 6:
         return [ZERO]
@@ -212,8 +212,8 @@ def _volume(program: Program, entries: list[Term], n: int) -> list[Term]:
 
 
 def _determinant(program: Program, rows: list[list[Term]]) -> Term:
-    """det of a square matrix up to its sign: along the emptiest row, of which every minor is
-    computed once."""
+    """det of a square matrix up to its sign, expanded along its emptiest rows; every minor of the
+    rows below is computed once."""
     rows = sorted(rows, key=_entries)
     minors: dict[tuple[int, ...], Term] = {(): ONE}
 

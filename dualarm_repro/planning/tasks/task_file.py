@@ -200,7 +200,8 @@ def load_tasks(
 def arms_and_ends(path: Path) -> list[tuple[Arm, bool]]:
     """The arms of a file of tasks, and of each whether its start or goal is given as a position.
 
-    The scene is not put together. Errors as in :func:`load_tasks`.
+    Neither is the scene put together nor are the tasks read further: of a file that
+    :func:`load_tasks` refuses it may give something, or raise anything.
     """
     content = read_written(path)
     tasks: dict[str, Any] = {}

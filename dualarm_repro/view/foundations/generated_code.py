@@ -13,7 +13,7 @@ from ...errors import UnsupportedArmError
 
 
 def pose_code(arm: Arm) -> str:
-    """The statements that compute T(q) of the arm, row by row; each is compiled as it stands."""
+    """The statements that compute T(q) of the arm, row by row, of sums and products."""
     return generated("pose", structure_of(arm.chain, Constants())).source
 
 
