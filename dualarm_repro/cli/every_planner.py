@@ -61,6 +61,6 @@ _enlisted = _enlisting(_plan)
 
 @wraps(planners.plan)
 def plan(*given: Any, **named: Any) -> None:
-    # Around the loading of the planners too, during which the second process can begin.
+    """Plan, as :func:`.planners.plan`; a second process compiles while the planners are loaded."""
     with nullcontext() if named["method"] == ALL else compiling_ahead(named["scene"]):
         _enlisted(*given, **named)
