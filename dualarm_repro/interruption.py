@@ -6,21 +6,20 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import current_thread, main_thread
-from types import FrameType
 
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
     """Ctrl-C within the block is answered at its end."""
     handler = signal.getsignal(signal.SIGINT)
-    if current_thread() is not main_thread() or not callable(handler):
+    if current_thread() is not main_thread() or handler is None:  # it reaches the main thread alone
         yield
         return
-    heard: list[tuple[int, FrameType | None]] = []
-    signal.signal(signal.SIGINT, lambda number, frame: heard.append((number, frame)))
+    heard: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, frame: heard.append(number))
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, handler)
         if heard:
-            handler(*heard[0])
+            signal.raise_signal(signal.SIGINT)

@@ -12,6 +12,8 @@ from .interruption import uninterrupted
 from .machine_code import MachineCode, NoMachineCode
 
 _NUMBA: Any = config
+#: Whether functions are compiled; NUMBA_DISABLE_JIT leaves them to the interpreter.
+COMPILES = not _NUMBA.DISABLE_JIT
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -31,7 +33,7 @@ def inlined(function: Callable[..., Any]) -> Any:
 def _compiled(function: Callable[..., Any], **options: Any) -> Any:
     """For Python, and for other kernels without the wrappers that only Python needs: compiling
     them takes a fifth of the time."""
-    if _NUMBA.DISABLE_JIT:
+    if not COMPILES:
         return function
     nested = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     outer = _kept(function, nested=False, **options)

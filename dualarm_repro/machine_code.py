@@ -91,10 +91,19 @@ class _Implementation(CompileResultCacheImpl):
 
 
 class _Sealed(IndexDataCacheFile):
-    """Machine code that is believed only with the hash it was written with.
+    """Machine code that is believed only with the hash and the key it was written with.
 
-    What is damaged would end the process, or compute something else; it is compiled again.
+    What is damaged would end the process, or compute something else; it is compiled again. So is
+    what another process wrote to the same file for another key: two that read the index before
+    either has written it choose one name.
     """
+
+    def save(self, key: Any, data: Any) -> None:
+        super().save(key, (key, data))
+
+    def load(self, key: Any) -> Any:
+        found = super().load(key)
+        return found[1] if found is not None and found[0] == key else None
 
     def _dump(self, obj: Any) -> bytes:
         written = super()._dump(obj)

@@ -6,6 +6,7 @@ test tries in short, or the mark gives the reason why none does.
 """
 
 import gc
+import signal
 import sys
 from pathlib import Path
 
@@ -22,6 +23,20 @@ from rare_collections import THRESHOLDS
 mpl.use("agg")
 settings.register_profile("reproducible", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("reproducible")
+
+
+def pytest_configure():
+    """Hear Ctrl-C, which whoever starts the suite in the background may have ignored."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call():
+    """What hears Ctrl-C after a test is what did before it: the next ones rely on it."""
+    before = signal.getsignal(signal.SIGINT)
+    found = yield
+    assert signal.getsignal(signal.SIGINT) is before
+    return found
 
 
 @pytest.fixture(scope="session")

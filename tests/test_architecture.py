@@ -27,6 +27,7 @@ FLOORS = (
         "interruption",
         "machine_code",
         "kernel",
+        "copies",
         "differences",
         "instrument",
         "quiet_import",

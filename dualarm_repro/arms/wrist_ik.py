@@ -11,12 +11,10 @@ two wrists with perpendicular axes one gives the other.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
-from numba.core import config
 
-from ..kernel import kernel
+from ..kernel import COMPILES, kernel
 from .codegen.simd import STORES, WIDTH
 from .trigonometry import arctan2
 from .wrist_lanes import (
@@ -40,8 +38,6 @@ from .wrist_lanes import (
 
 BRANCHES = 8  # index 4 (shoulder back) + 2 (elbow negative) + (wrist negative)
 SAME = 1e-6  # half the difference [rad] below which the angles of two branches are one
-_NUMBA: Any = config
-_COMPILES = not _NUMBA.DISABLE_JIT
 _store_8, _store_4 = STORES[8], STORES[4]
 
 
@@ -100,7 +96,7 @@ def inverse_kinematics(geometry, poses, reference, lower, upper):
             w[ANGLES + i] = representative(w[ANGLES + i], w[NEAR + i], w[LOWER + i], w[UPPER + i])
         for i in range(LANES):
             branches(w, i)
-        if _COMPILES and 12 * (start + LANES) <= flat.size:
+        if COMPILES and 12 * (start + LANES) <= flat.size:
             for i in range(0, LANES, WIDTH):
                 to = 12 * (start + i)
                 _store_8(w, FOUND + i, LANES, flat, to, 12)

@@ -38,8 +38,7 @@ def process() -> None:
 def main(last: bool = False) -> None:
     """Exit with 0, 1 for a failed check, 2 for bad input, 3 for a motion that must not be run, 130
     when interrupted; ``last`` if the process ends with it."""
-    gc.set_threshold(*COLLECT_AFTER)
-    with _interruptions(last) as seen:
+    with _interruptions(last) as seen, _seldom_collected(last):
         try:
             _write_what_the_encoding_lacks()
             code = _answer(sys.argv[1:])
@@ -128,12 +127,25 @@ def _mute(stream: Any) -> None:
 
 
 @contextmanager
+def _seldom_collected(last: bool) -> Iterator[None]:
+    """Look for garbage seldom; a caller that goes on gets its own habit back."""
+    before = gc.get_threshold()
+    gc.set_threshold(*COLLECT_AFTER)
+    try:
+        yield
+    finally:
+        if not last:
+            gc.set_threshold(*before)
+
+
+@contextmanager
 def _interruptions(last: bool) -> Iterator[list[int]]:
     """Note interruptions, whatever a library makes of the exception, and let only one end us.
 
     After the ``last`` command of a process there is nothing left to interrupt but its end.
     """
     seen: list[int] = []
+    hook = sys.unraisablehook
 
     def stop(number: int, frame: FrameType | None) -> None:
         seen.append(number)
@@ -146,6 +158,12 @@ def _interruptions(last: bool) -> Iterator[list[int]]:
     except ValueError:  # not the main thread
         yield seen
         return
-    yield seen
-    if not seen:
-        signal.signal(signal.SIGINT, signal.SIG_IGN if last else before)
+    try:
+        yield seen
+    finally:
+        if last:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+        else:
+            if before is not None:  # else it was not set from Python, and cannot be from there
+                signal.signal(signal.SIGINT, before)
+            sys.unraisablehook = hook

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import wraps
 from typing import Any
 
@@ -39,8 +40,7 @@ methods = _enlisting(planners.methods)
 @wraps(planners.plan)
 def _plan(*given: Any, **named: Any) -> None:
     if named.get("method") != ALL:
-        with compiling_ahead():
-            planners.plan(*given, **named)
+        planners.plan(*given, **named)
         return
     scene = named["scene"]
     with progress.waiting(f"planning {scene.name} by every method"):
@@ -56,4 +56,11 @@ def _plan(*given: Any, **named: Any) -> None:
         raise typer.Exit(NOT_USABLE)
 
 
-plan = _enlisting(_plan)
+_enlisted = _enlisting(_plan)
+
+
+@wraps(planners.plan)
+def plan(*given: Any, **named: Any) -> None:
+    """Plan, as :func:`.planners.plan`; a second process compiles while the planners are loaded."""
+    with nullcontext() if named["method"] == ALL else compiling_ahead(named["scene"]):
+        _enlisted(*given, **named)

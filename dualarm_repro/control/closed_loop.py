@@ -111,7 +111,9 @@ def run_exact(arrays, numbers, circle, first, last, dt, weights, readings, run, 
             count, _ = sense_near(arrays, numbers, at, noise, buffers)
         program = state(arrays, numbers, at, q[0], position, velocity, count, buffers)
         if smoothing > 0.0 and step > 0:
-            program.target[:] = (program.target + smoothing * x[step - 1]) / (1.0 + smoothing)
+            for j in range(len(program.target)):
+                together = program.target[j] + smoothing * x[step - 1, j]
+                program.target[j] = together / (1.0 + smoothing)
         found = minimise(program, work)
         v, y, z, w = work.x, work.y, work.z, work.w
         if found != SOLVED and slack_weight > 0.0:

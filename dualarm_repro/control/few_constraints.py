@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..copies import copy_row
 from ..kernel import kernel
 from .least_distance import SOLVED, least_distance
 
@@ -74,9 +75,14 @@ def minimise(program, work):
     x, y, z, w, gram = work
     count = few_constraints(program, gram)
     if count < 0:
-        status, x[:], y[:], z[:k], w[:] = least_distance(program)
+        status, unknowns, equalities, rows, bounds = least_distance(program)
+        copy_row(unknowns, x)
+        copy_row(equalities, y)
+        copy_row(rows, z[:k])
+        copy_row(bounds, w)
         return status
-    x[:], y[:], z[:k], w[:] = gram.x[:n], 0.0, 0.0, 0.0
+    copy_row(gram.x, x)
+    y[:], z[:k], w[:] = 0.0, 0.0, 0.0
     for j in range(count):
         i, u = gram.active[j], gram.u[j]
         if i < m:

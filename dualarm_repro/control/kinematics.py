@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arms.chain import Chain
 from ..kernel import kernel
-from ..scene.posing import link_frames
+from ..scene.posing import set_frames
 from ..scene.segments import segment_segment
 from ..scene.vectors import cross, minus, vector
 
@@ -19,7 +19,7 @@ _ROUNDING = 1e-9  # [m]
 
 @kernel
 def joint_frames(arrays, q, frames, tips):
-    """Frames of all arms as :func:`..scene.posing.link_frames` has them, and the flange positions.
+    """Frames of all arms as :func:`..scene.posing.set_frames` has them, and the flange positions.
 
     Parameters
     ----------
@@ -32,8 +32,7 @@ def joint_frames(arrays, q, frames, tips):
         first, last = arrays.start[arm], arrays.start[arm + 1]
         row, flange = first + arm, last + arm
         chain = Chain(arrays.rotation[row:flange], arrays.translation[row:flange])
-        angles = q[first:last].reshape(1, -1)
-        frames[row : flange + 1] = link_frames(chain, arrays.base[arm], angles)[0]
+        set_frames(chain, arrays.base[arm], q[first:last], frames[row : flange + 1])
         F, t = frames[flange], arrays.translation[flange]
         for r in range(3):
             tips[arm, r] = F[r, 0] * t[0] + F[r, 1] * t[1] + F[r, 2] * t[2] + F[r, 3]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..copies import copy_row
 from ..kernel import kernel
 
 SOLVED, INFEASIBLE, ITERATION_LIMIT = 0, 1, 2
@@ -45,7 +46,7 @@ def least_distance(program):
     count, equalities, status = 0, 0, SOLVED
 
     for i in range(m):
-        a[:] = A[i]
+        copy_row(A[i], a)
         square = _directions(a, Q, R, count, d, r, z)
         missing = b[i] - _dot(a, x)
         if square <= _DEPENDENT * _dot(a, a):

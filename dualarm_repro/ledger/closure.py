@@ -40,7 +40,17 @@ _COMPUTING = frozenset(
         "witnesses",
     )
 )
-_BOOKKEEPING = frozenset(f"{ROOT}.{name}" for name in ("sources", "cache_folder", "tracking"))
+_BOOKKEEPING = frozenset(
+    f"{ROOT}.{name}"
+    for name in (
+        "sources",
+        "cache_folder",
+        "tracking",
+        "machine_code",
+        "interruption",
+        "terminal",
+    )
+)
 
 
 def carries(module: str) -> bool:
@@ -51,7 +61,7 @@ def carries(module: str) -> bool:
 
 
 def keeps_books(module: str) -> bool:
-    """Whether a module only finds files and hashes them."""
+    """Whether a module only finds, hashes or keeps files, or tells of it."""
     return module in _BOOKKEEPING
 
 

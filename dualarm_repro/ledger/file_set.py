@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import signal
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from threading import current_thread, main_thread
 
 from ..errors import OutputError
+from ..interruption import uninterrupted
 from .files import write_text
 
 
@@ -78,7 +76,7 @@ def move_together(staged: Path, folder: Path, names: Sequence[Path]) -> None:
     before = {place: place.read_bytes() if place.is_file() else None for place in places}
     folders = [f for place in places for f in reversed(place.parents) if not f.exists()]
     moved: list[Path] = []
-    with _uninterrupted():
+    with uninterrupted():  # while files get their names
         try:
             for name, place in zip(names, places, strict=True):
                 place.parent.mkdir(parents=True, exist_ok=True)
@@ -95,19 +93,3 @@ def move_together(staged: Path, folder: Path, names: Sequence[Path]) -> None:
                 if made.is_dir():
                     made.rmdir()
             raise
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Keep an interruption back for the moment in which files get their names."""
-    if current_thread() is not main_thread():  # interruptions reach the main thread alone
-        yield
-        return
-    kept: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, frame: kept.append(number))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-    if kept:
-        signal.raise_signal(kept[0])

@@ -143,7 +143,7 @@ def segment_box(a, u, h):
     distance, point_segment, point_box, normal
     """
     p, e, distance = nearest_point(a, u, h)
-    if distance > CORES_MEET:
+    if not distance <= CORES_MEET:  # NaN has no exit, and stays
         return distance, p, along(p, -1.0, e), scaled(-1.0 / distance, e)
     depth, direction, axis = shortest_exit(a, u, h)
     p = along(a, deepest_parameter(a, u, h, direction, axis), u)
@@ -154,4 +154,4 @@ def segment_box(a, u, h):
 def segment_box_distance(a, u, h):
     """The distance of :func:`segment_box` alone."""
     distance = nearest_point(a, u, h)[2]
-    return distance if distance > CORES_MEET else -shortest_exit(a, u, h)[0]
+    return -shortest_exit(a, u, h)[0] if distance <= CORES_MEET else distance

@@ -12,7 +12,8 @@ from ..arms.arm import Arm
 from ..arms.capsules import capsule_ends
 from ..arms.chain import SlidingChain
 from ..arms.sliding import sliding_frames
-from ..kernel import inlined, kernel
+from ..copies import copy_rows
+from ..kernel import kernel
 from ..tracking import kept_with_owner
 
 
@@ -96,7 +97,7 @@ def link_frames(chain, base, q):
 @kernel
 def set_frames(chain, base, q, frames):
     """The frames (n+1, 3, 4) of one configuration (n,) into ``frames``."""
-    copy_frame(base, frames[0])
+    copy_rows(base, frames[0])
     for j in range(len(q)):
         s, c = np.sin(q[j]), np.cos(q[j])
         C, t = chain.rotation[j], chain.translation[j]
@@ -107,15 +108,6 @@ def set_frames(chain, base, q, frames):
             frames[j + 1, r, 0], frames[j + 1, r, 1] = c * x + s * y, c * y - s * x
             frames[j + 1, r, 2] = a * C[0, 2] + b * C[1, 2] + d * C[2, 2]
             frames[j + 1, r, 3] = a * t[0] + b * t[1] + d * t[2] + frames[j, r, 3]
-
-
-@inlined
-def copy_frame(frame, out):
-    """A frame (3, 4) into ``out``; an assignment of slices is compiled with the text of its error,
-    for seconds."""
-    for r in range(3):
-        for k in range(4):
-            out[r, k] = frame[r, k]
 
 
 def cores_in(frames: np.ndarray, joint: np.ndarray, local: np.ndarray) -> np.ndarray:

@@ -157,6 +157,12 @@ def scene_of(path: Path, content: dict[str, Any]) -> WrittenScene:
     return WrittenScene(file, scene)
 
 
+def placed_arms(path: Path, content: dict[str, Any]) -> list[PlacedArm]:
+    """The arms of such a file without their scene; errors as in :func:`load_scene`."""
+    file = SceneFile.checked(path, content)
+    return [_placed(path, name, entry) for name, entry in file.arms.items()]
+
+
 def json_schema() -> dict[str, Any]:
     """JSON Schema of a scene file, for editors and other tools."""
     return SceneFile.model_json_schema()

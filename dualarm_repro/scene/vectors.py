@@ -2,15 +2,7 @@
 
 from __future__ import annotations
 
-from ..kernel import inlined, kernel
-
-
-@inlined
-def copy_row(values, out):
-    """Numbers (n,) into ``out``; an assignment of slices is compiled with the text of its error,
-    for seconds."""
-    for j in range(len(out)):
-        out[j] = values[j]
+from ..kernel import kernel
 
 
 @kernel

@@ -110,10 +110,13 @@ def base_poses(matrices: Annotated[np.ndarray, Shape("K", 4, 4)], reading: str) 
     if reading == "inverted":
         return matrices
     try:
-        return np.linalg.inv(matrices)
+        found = np.linalg.inv(matrices)
     except np.linalg.LinAlgError:
+        found = np.full_like(matrices, np.nan)
+    if not np.isfinite(found).all():  # entries so large that their products are infinite as well
         expected = "matrices that have an inverse"
-        raise InputError("base_poses", "matrices", matrices, expected) from None
+        raise InputError("base_poses", "matrices", matrices, expected)
+    return found
 
 
 @checked

@@ -8,6 +8,7 @@ from enum import IntEnum
 import numpy as np
 
 from ..arms.wrist_ik import BRANCHES, inverse_kinematics
+from ..copies import copy_row, copy_rows
 from ..kernel import kernel
 from .manipulability import manipulabilities
 
@@ -69,12 +70,15 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
     local = np.empty((poses, 4, 4))
     origin = np.empty((poses, 3))
     for n in range(poses):
-        local[n] = flanges[n]
-        local[n, :3, :3] = back @ np.ascontiguousarray(flanges[n, :3, :3])
-        origin[n] = back @ (flanges[n, :3, 3] - base[:3, 3])
+        copy_rows(flanges[n], local[n])
+        copy_rows(back @ np.ascontiguousarray(flanges[n, :3, :3]), local[n, :3, :3])
+        copy_row(back @ (flanges[n, :3, 3] - base[:3, 3]), origin[n])
     stride = max(1, poses // _PROBES)
     for p in range(count):
-        local[:, :3, 3] = origin + back @ centres[p]
+        centre = back @ centres[p]
+        for n in range(poses):
+            for r in range(3):
+                local[n, r, 3] = origin[n, r] + centre[r]
         probes = inverse_kinematics(geometry, local[::stride].copy(), middle, -free, free)
         if not _any_branch(probes):
             status[p] = 1
@@ -86,7 +90,7 @@ def follow(geometry, base, flanges, centres, lower, upper, threshold):
             # Branches 2k and 2k + 1 differ by a flip of the wrist and have equal measures.
             if b == passed + 1 and b % 2 == 1:
                 continue
-            path[:] = found[:, b]
+            copy_rows(found[:, b], path)
             if np.isnan(path).any() or not _reached_between(geometry, path):
                 continue
             if not _within(path, lower, upper, middle):

@@ -69,7 +69,6 @@ def test_what_begins_at_once_is_of_several_documents():
 INTERRUPTED = """
 import pathlib, signal, sys, time
 sys.path.insert(0, {tools!r})
-signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever is inherited
 import prerun
 
 def compute(drawn, item_ids):

@@ -1,5 +1,6 @@
 """What a newcomer may expect: examples, quick answers, plain pipes, one line at the end."""
 
+import gc
 import json
 import os
 import pty
@@ -277,7 +278,6 @@ def test_an_interruption_is_one_line(delay, tmp_path):
 def test_once_it_has_answered_nothing_interrupts_its_end():
     program = (
         "import atexit, os, signal, sys\n"
-        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # whatever is inherited
         "from dualarm_repro import cli\n"
         "atexit.register(lambda: print(signal.getsignal(signal.SIGINT) == signal.SIG_IGN))\n"
         "atexit.register(os.kill, os.getpid(), signal.SIGINT)\n"
@@ -318,6 +318,28 @@ def test_an_unforeseen_error_is_one_line_and_shown_whole_on_demand(dualarm, monk
 
     with pytest.raises(ZeroDivisionError):
         cli.main()
+
+
+@pytest.mark.parametrize("ending", [SystemExit, ZeroDivisionError, KeyboardInterrupt])
+def test_however_a_command_ends_ctrl_c_belongs_to_the_caller_again(monkeypatch, ending):
+    from dualarm_repro import cli
+
+    def ends():
+        if ending is KeyboardInterrupt:
+            signal.raise_signal(signal.SIGINT)
+        raise ending
+
+    monkeypatch.setenv("DUALARM_TRACEBACK", "1")
+    monkeypatch.setattr("dualarm_repro.papers.load", ends)
+    monkeypatch.setattr(sys, "argv", ["dualarm", "show", "xue.tab01"])
+
+    def habits():
+        return signal.getsignal(signal.SIGINT), sys.unraisablehook, gc.get_threshold()
+
+    before = habits()
+    with pytest.raises(ZeroDivisionError if ending is ZeroDivisionError else SystemExit):
+        cli.main()
+    assert habits() == before
 
 
 DAMAGES = ("[]", "{}", '{"code": 1, "cells": 1, "inputs": {}, "table_sha256": ""}', "{")

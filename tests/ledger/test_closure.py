@@ -13,7 +13,7 @@ from long_tests import long_where
 from dualarm_repro.arms.trigonometry import sincos
 from dualarm_repro.datafiles import data_path
 from dualarm_repro.ledger import closure as found
-from dualarm_repro.ledger.closure import carries, closure, module_of
+from dualarm_repro.ledger.closure import carries, closure, keeps_books, module_of
 from dualarm_repro.ledger.record import roots
 from dualarm_repro.ledger.spot import seed_of_code
 from dualarm_repro.ledger.versions import DISTRIBUTIONS, versions
@@ -262,3 +262,9 @@ def test_every_imported_name_has_its_distribution():
         behind = DISTRIBUTIONS.get(name, (name.replace("_", "-"),))
         installed = {one.lower().replace("_", "-") for one in known.get(name, behind)}
         assert set(behind) & installed, name
+
+
+def test_what_is_left_out_reaches_nothing_that_computes():
+    names = [name for name in graph().files if keeps_books(name)]
+    assert len(names) == 6
+    assert set(graph().closure(names)) == set(names)

@@ -96,6 +96,15 @@ def test_known_cases(a, u, distance, p, normal):
         np.testing.assert_allclose(found[3], normal, atol=1e-12)
 
 
+@pytest.mark.parametrize("place", range(6))
+def test_a_segment_at_no_number_is_at_no_distance(place):
+    numbers = np.array([0.1, 5.0, 5.0, 0.1, 0.1, 0.1, 0.1, 0.2, 0.3])
+    numbers[place] = np.nan
+    a, u, h = (tuple(map(float, part)) for part in numbers.reshape(3, 3))
+    assert np.isnan(segment_box_distance(a, u, h))
+    assert np.isnan(segment_box(a, u, h)[0])
+
+
 def test_an_edge_pushed_past_an_edge():
     """A long segment across a box edge leaves along the common normal of both edges."""
     a, u = (0.6, 0.2, -1.0), (-0.3, 0.3, 2.0)

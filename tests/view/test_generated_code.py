@@ -21,3 +21,13 @@ def test_another_code_is_not(monkeypatch):
 
     monkeypatch.setattr(generated_code, "symbolic_run", wrong)
     assert not generated_code.is_derived(load_arm("irb120"))
+
+
+def test_what_is_compiled_is_compared_with_the_lines(monkeypatch):
+    arm = load_arm("irb120")
+    assert generated_code.compiled_difference(arm, 100, seed=0) < 1e-14
+    rows = generated_code.Generated.rows
+    monkeypatch.setattr(
+        generated_code.Generated, "rows", lambda *given: rows(*given) + 1e-3 * (given[1][:, :1] > 0)
+    )
+    assert generated_code.compiled_difference(arm, 100, seed=0) == pytest.approx(1e-3)

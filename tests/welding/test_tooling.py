@@ -147,6 +147,13 @@ def test_the_cores_of_a_workpiece_contain_its_flat_ends():
     assert piece.radii[:2].tolist() == [0.10, 0.06]
 
 
+#: A matrix whose inverse is not finite.
+FAR_APART = np.array(
+    [[-9e99, 1e-99, 0, -1e-90], [-1e-90, 0, 9e99, -9e99], [-9e99, 1e-99, -1e-90, -9e99],
+     [0, 0, 0, 1e-99]]
+)  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("make", "line"),
     [
@@ -158,6 +165,7 @@ def test_the_cores_of_a_workpiece_contain_its_flat_ends():
         (lambda: Tools("axial", 0.0, 0.06, Torch(0.3, 0, 0.02, 0), "x"), "tools: gripper_length"),
         (lambda: base_poses(np.tile(np.eye(4), (3, 1, 1)), "both"), "inverted, literal"),
         (lambda: base_poses(np.zeros((3, 4, 4)), "literal"), "matrices that have an inverse"),
+        (lambda: base_poses(FAR_APART[None], "literal"), "matrices that have an inverse"),
     ],
 )
 def test_each_wrong_part_is_named_in_one_line(make, line):

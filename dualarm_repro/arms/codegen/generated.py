@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from hashlib import sha256
 from typing import Any
 
 import numpy as np
-from numba.core import config
 
-from ...kernel import kernel
+from ...kernel import COMPILES, kernel
 from ..trigonometry import FAR, sincos
 from . import recursions
+from .lowering import TINY, lowered
 from .program import Program, Term, Vector
-from .simd import STORES
-from .source import block_function, plain_function
+from .simd import STORES, STREAMS, WIDTH, written
+from .source import block_function, inputs_of, plain_function
 from .structure import Structure
 
-_NUMBA: Any = config
+#: Numbers from which on a matrix of results goes past the cache, in which it would not stay.
+LARGE = 2**20
 Carried = tuple[tuple[int, Vector], ...]
 #: Function of flat configurations, constants and a matrix that takes the results.
 Compiled = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
@@ -60,16 +60,27 @@ class Generated:
     def compiled(self) -> Compiled:
         """The loop over configurations, see :func:`.source.block_function`.
 
-        Its name holds the digest of its text, under which its machine code is kept. Where numba is
-        switched off it is a function that does nothing and says so.
+        Its name holds the digest of its text and of the program, under which its machine code is
+        kept. Where numba is switched off it is a function that does nothing and says so.
         """
-        if _NUMBA.DISABLE_JIT:
+        return self._loop(past_the_cache=False)
+
+    @cached_property
+    def streamed(self) -> Compiled:
+        """The same for a large matrix, which is written past the cache."""
+        return self._loop(past_the_cache=True)
+
+    def _loop(self, past_the_cache: bool) -> Compiled:
+        if not COMPILES:
             return nothing
-        text = block_function("block", self._program, self._results, self._structure)
-        name = f"{self.name}_{sha256(text.encode()).hexdigest()[:16]}"
+        parts = self._program, self._results, self._structure
+        text = block_function("block", *parts, past_the_cache)
+        name = f"{self.name}_{sha256((self.source + text).encode()).hexdigest()[:16]}"
         text = text.replace("def block(", f"def {name}(", 1)
-        exec(compile(text, f"<generated {name}>", "exec"), _COMPILED)
-        made: Compiled = kernel(_COMPILED[name])
+        put = lowered(self._program, self._results, inputs_of(*parts))
+        scope = {**_COMPILED, "put": put}
+        exec(compile(text, f"<generated {name}>", "exec"), scope)
+        made: Compiled = kernel(scope[name])
         return made
 
     def rows(self, q: np.ndarray, constants: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
@@ -77,16 +88,18 @@ class Generated:
 
         Angles so far from 0 that the fast sine is not exact go through the plain function.
         """
-        out = np.empty((len(q), *shape))
+        large = self.size % WIDTH == 0 and len(q) * self.size >= LARGE
+        out = _from_a_line_on(len(q) * self.size) if large else np.empty(len(q) * self.size)
+        loop = self.streamed if large else self.compiled
         flat = np.ascontiguousarray(q).reshape(-1)
         if not flat.flags.writeable:  # the compiler has another type for these
             flat = flat.copy()
-        if not self.compiled(flat, constants, out.reshape(-1, shape[-1])):
+        if not loop(flat, constants, out.reshape(-1, shape[-1])):
             far = np.ones(len(q), dtype=bool)
-            if not _NUMBA.DISABLE_JIT:
+            if COMPILES:
                 far = ~(np.abs(q) <= FAR).all(axis=1)
-            out[far] = self.by_numpy(q[far], constants).reshape(-1, *shape)
-        return out
+            out.reshape(len(q), self.size)[far] = self.by_numpy(q[far], constants)
+        return out.reshape(len(q), *shape)
 
     def by_numpy(self, q: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Values (N, size) for q (N, n) by the plain function."""
@@ -112,17 +125,15 @@ def nothing(q: np.ndarray, constants: np.ndarray, out: np.ndarray) -> bool:
     return False
 
 
-#: Squares up to here count as 0: their reciprocals would overflow.
-TINY = 1e-290
+def _from_a_line_on(size: int) -> np.ndarray:
+    """Room for so many numbers that begins with a line of the cache."""
+    room = np.empty(size + WIDTH)
+    before = -(room.ctypes.data // room.itemsize) % WIDTH
+    return room[before : before + size]
 
 
 def _reciprocals(x: np.ndarray) -> np.ndarray:
     return np.divide(1.0, x, out=np.zeros_like(x), where=x > TINY)
-
-
-@kernel
-def _reciprocal(x):
-    return 1.0 / x if x > TINY else 0.0
 
 
 #: What the compiled loops refer to.
@@ -130,8 +141,8 @@ _COMPILED: dict[str, Any] = {
     "__name__": __name__,
     "FAR": FAR,
     "np": np,
-    "reciprocal": _reciprocal,
     "sincos": sincos,
-    "sqrt": math.sqrt,
+    "written": written,
     **{f"store_{size}": store for size, store in STORES.items()},
+    **{f"stream_{size}": store for size, store in STREAMS.items()},
 }

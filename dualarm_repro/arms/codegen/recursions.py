@@ -115,11 +115,12 @@ def jacobian(program: Program, chain: Structure) -> list[Term]:
 
 
 def manipulability(program: Program, chain: Structure) -> list[Term]:
-    """w = sqrt(det(J J^T)) (1), as the product of the norms of J's orthogonalised rows.
+    """w = sqrt(det(J J^T)) (1): of six joints |det J|, of more the product of the norms of
+    J's orthogonalised rows.
 
-    Gram-Schmidt on the rows keeps full accuracy near singularities, where det(J J^T) would lose
-    half of the digits (Yoshikawa 1985 for the measure). The measure depends neither on the point
-    of the body nor on the axes: those of the joint are taken that leave the fewest operations.
+    Both err by the round-off of products near singularities, where det(J J^T) would lose half of
+    the digits (Yoshikawa 1985 for the measure). The measure depends neither on the point of the
+    body nor on the axes: those of the joint are taken that leave the fewest operations.
     """
     if chain.joints < 6:
         return [ZERO]
@@ -189,20 +190,51 @@ def _rows(columns: list[Vector]) -> list[Term]:
 
 
 def _volume(program: Program, entries: list[Term], n: int) -> list[Term]:
-    """Product of the norms of the orthogonalised rows of a matrix (6, n)."""
+    """Volume that the rows of a matrix (6, n) span."""
     rows = [entries[n * i : n * (i + 1)] for i in range(6)]
-    volume = ONE
+    if n == len(rows):
+        return [_magnitude(program, _determinant(program, rows))]
+    square_volume = ONE
     while rows:
-        first = min(rows, key=lambda row: sum(1 for term in row if term.sign))
+        first = min(rows, key=_entries)
         rows.remove(first)
         square = program.inner(first, first)
         if not square.sign:
             return [ZERO]
-        volume = program.times(volume, program.function("sqrt", square))
+        square_volume = program.times(square_volume, square)
         part = program.function("reciprocal", square)
         for k, row in enumerate(rows):
             along = program.times(program.inner(first, row), part)
             rows[k] = [
                 program.plus(x, -program.times(along, y)) for x, y in zip(row, first, strict=True)
             ]
-    return [volume]
+    return [program.function("sqrt", square_volume)]
+
+
+def _determinant(program: Program, rows: list[list[Term]]) -> Term:
+    """det of a square matrix up to its sign, expanded along its emptiest rows; every minor of the
+    rows below is computed once."""
+    rows = sorted(rows, key=_entries)
+    minors: dict[tuple[int, ...], Term] = {(): ONE}
+
+    def minor(columns: tuple[int, ...]) -> Term:
+        if columns not in minors:
+            row, total = rows[-len(columns)], ZERO
+            for i, column in enumerate(columns):
+                if row[column].sign:
+                    rest = minor(columns[:i] + columns[i + 1 :])
+                    part = program.times(row[column], rest)
+                    total = program.plus(total, -part if i % 2 else part)
+            minors[columns] = total
+        return minors[columns]
+
+    return minor(tuple(range(len(rows))))
+
+
+def _entries(row: list[Term]) -> int:
+    """Number of entries that are not 0."""
+    return sum(1 for term in row if term.sign)
+
+
+def _magnitude(program: Program, a: Term) -> Term:
+    return program.function("abs", Term(1, a.name)) if a.name else Term(abs(a.sign))

@@ -16,7 +16,7 @@ WIDTH = 8  #: configurations that are stored together
 _DOUBLE, _INTEGER = ir.DoubleType(), ir.IntType(32)
 
 
-def _storing(entries: int) -> Any:
+def _storing(entries: int, past_the_cache: bool) -> Any:
     """The intrinsic for so many entries, a power of 2 up to ``WIDTH``."""
 
     def store(
@@ -35,7 +35,12 @@ def _storing(entries: int) -> Any:
                 rows.append(builder.load(_vector_at(builder, first, place, WIDTH), align=8))
             for one, vector in enumerate(_by_configuration(builder, rows)):
                 place = builder.add(to, builder.mul(step, step.type(one)))
-                builder.store(vector, _vector_at(builder, last, place, entries), align=8)
+                target = _vector_at(builder, last, place, entries)
+                if past_the_cache:
+                    stored = builder.store(vector, target, align=8 * entries)
+                    stored.set_metadata("nontemporal", builder.module.add_metadata([_INTEGER(1)]))
+                else:
+                    builder.store(vector, target, align=8)
 
         return signature, codegen
 
@@ -77,6 +82,18 @@ def _vector_at(builder: ir.IRBuilder, data: ir.Value, place: ir.Value, width: in
     return builder.bitcast(pointer, ir.VectorType(_DOUBLE, width).as_pointer())
 
 
+def _fence(typingctx: Any) -> tuple[Any, Callable[..., None]]:
+    def codegen(context: Any, builder: Any, sig: Any, arguments: Any) -> None:
+        builder.fence("seq_cst")
+
+    return types.void(), codegen
+
+
 #: Of a number of entries k: ``store(w, at, stride, out, to, step)`` copies w[at + e stride + i] to
 #: out[to + i step + e] for e < k and i < WIDTH.
-STORES = {entries: _storing(entries) for entries in (8, 4, 2, 1)}
+STORES = {entries: _storing(entries, False) for entries in (8, 4, 2, 1)}
+#: The same past the cache, for the entries of a whole line at its beginning: what is too large to
+#: stay in the cache is not read before it is written.
+STREAMS = {WIDTH: _storing(WIDTH, True)}
+#: ``written()``: from here on other threads see what went past the cache.
+written: Any = intrinsic(_fence)

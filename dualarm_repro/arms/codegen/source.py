@@ -1,9 +1,9 @@
 """Straight-line programs as source of Python: a plain function, and a loop over configurations.
 
-Both are made of the same lines. The plain function takes numbers, arrays or symbols. The loop is
-for the compiler: configurations are taken in blocks of ``LANES``, and all that a block reads and
-writes lies in one buffer at constant places, so that the compiler sees no aliasing and turns the
-inner loops into SIMD code.
+The plain function takes numbers, arrays or symbols. The loop is for the compiler, which is given
+the program as instructions (:mod:`.lowering`): configurations are taken in blocks of ``LANES``, and
+all that a block reads and writes lies in one buffer at constant places, so that the compiler sees
+no aliasing and turns the inner loops into SIMD code.
 """
 
 from __future__ import annotations
@@ -33,20 +33,27 @@ def plain_function(name: str, program: Program, results: Sequence[Term], chain: 
     return f"def {name}(s, c, d, k):\n    {body}\n"
 
 
-def block_function(name: str, program: Program, results: Sequence[Term], chain: Structure) -> str:
+def block_function(
+    name: str,
+    program: Program,
+    results: Sequence[Term],
+    chain: Structure,
+    past_the_cache: bool = False,
+) -> str:
     """Source of ``name(q, k, matrix)`` for flat q (N n), constants k and results in a matrix of N m
     entries.
 
     It returns whether the sizes fit and all of q is so near to 0, and finite, that the results can
-    be taken.
+    be taken. With ``past_the_cache`` the matrix, which has to begin a line of the cache and to have
+    a whole number of them for each configuration, is written without being read into the cache.
     """
     n, m = chain.joints, len(results)
     used = program.names(results)
     turning, sliding = _joints(used, chain)
     # Places in the buffer: n joint values, then what is written.
     written = [(n + e) * LANES for e in range(m)]
-    lines, values = program.lines(results)
-    places = list(zip(written, values, results, strict=True))
+    inputs = ", ".join(inputs_of(program, results, chain))
+    constant = [(e, term.text) for e, term in enumerate(results) if not term.name]
     text = [
         f"def {name}(q, k, matrix):",
         "    out = matrix.reshape(-1)",
@@ -58,12 +65,13 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         f"    if q.size == {n}:",
         *[f"        d{j + 1} = q[{j}]" for j in sliding],
         *[f"        s{j + 1}, c{j + 1} = sincos(q[{j}])" for j in turning],
-        *[f"        {line}" for line in lines],
-        *[f"        out[{e}] = {value}" for e, value in enumerate(values)],
+        *[f"        put(({inputs},), out, 0, 1)"] * bool(inputs),
+        *[f"        out[{e}] = {value}" for e, value in constant],
         f"        return {' and '.join(f'abs(q[{j}]) <= FAR' for j in range(n))}",
     ]
     text += [f"    w = np.zeros({(n + m) * LANES})"]
-    text += [f"    w[{at}:{at + LANES}] = {v}" for at, v, term in places if not term.name]
+    text += [f"    for i in range({LANES}):"] if constant else []
+    text += [f"        w[{written[e]} + i] = {value}" for e, value in constant]
     text += [
         "    near = True",
         f"    count = q.size // {n}",
@@ -76,17 +84,16 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         *[f"            near &= abs(w[{j * LANES} + i]) <= FAR" for j in range(n)],
         *[f"            d{j + 1} = w[{j * LANES} + i]" for j in sliding],
         *[f"            s{j + 1}, c{j + 1} = sincos(w[{j * LANES} + i])" for j in turning],
-        *[f"            {line}" for line in lines],
-        *[f"            w[{at} + i] = {v}" for at, v, term in places if term.name],
+        *[f"            put(({inputs},), w, {n * LANES} + i, {LANES})"] * bool(inputs),
         f"        to = start * {m}",
         f"        if rows == {LANES}:",
         f"            for i in range(0, {LANES}, {WIDTH}):",
     ]
-    entry = 0
+    entry, store = 0, "stream" if past_the_cache else "store"
     for size in STORES:
         while m - entry >= size:
             text.append(
-                f"                store_{size}(w, {written[entry]} + i, {LANES}, "
+                f"                {store}_{size}(w, {written[entry]} + i, {LANES}, "
                 f"out, to + {m} * i + {entry}, {m})"
             )
             entry += size
@@ -95,9 +102,17 @@ def block_function(name: str, program: Program, results: Sequence[Term], chain: 
         "            for i in range(rows):",
         f"                for e in range({m}):",
         f"                    out[to + {m} * i + e] = w[{n * LANES} + e * {LANES} + i]",
+        *["    written()"] * past_the_cache,
         "    return near",
     ]
     return "\n".join(text) + "\n"
+
+
+def inputs_of(program: Program, results: Sequence[Term], chain: Structure) -> list[str]:
+    """Names of what a program reads: sines, cosines, displacements and constants."""
+    used = program.names(results)
+    joints = [f"{letter}{j + 1}" for letter in "scd" for j in range(chain.joints)]
+    return [name for name in joints if name in used] + [f"k{i}" for i in _constants(used)]
 
 
 def _constants(used: set[str]) -> list[int]:

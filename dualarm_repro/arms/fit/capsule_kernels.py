@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from ...copies import copy_row
 from ...kernel import kernel
 
 _TURNS = 40  # steps of the iteration for the circle
@@ -77,7 +78,7 @@ def smallest(points, directions, out):
         volume = along(points, directions[k], trial)
         if volume < best:
             best = volume
-            out[:] = trial
+            copy_row(trial, out)
     return best
 
 
@@ -86,7 +87,8 @@ def refined(points, directions, steps, out):
     """As :func:`smallest`, then turned towards a smaller volume by ever smaller angles."""
     best = smallest(points, directions, out)
     trial, u = np.empty(7), np.empty(3)
-    u[:] = out[3:6] - out[:3]
+    for r in range(3):
+        u[r] = out[3 + r] - out[r]
     length = np.sqrt((u * u).sum())
     if length == 0.0:
         return best
@@ -109,7 +111,7 @@ def refined(points, directions, steps, out):
             volume = along(points, v, trial)
             if volume < best:
                 best, better = volume, True
-                out[:] = trial
+                copy_row(trial, out)
                 chosen = v
         if better:
             u = chosen

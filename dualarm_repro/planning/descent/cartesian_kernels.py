@@ -8,9 +8,9 @@ import numpy as np
 
 from ...arms.wrist_geometry import WristGeometry
 from ...arms.wrist_ik import inverse_kinematics
+from ...copies import copy_row, copy_rows
 from ...kernel import kernel
-from ...scene.posing import copy_frame
-from ...scene.vectors import along, copy_row, dot, minus, rotated_back, scaled, vector
+from ...scene.vectors import along, dot, minus, rotated_back, scaled, vector
 from ...settings import code
 from ..field.field_kernels import Field, barrier, evaluate, repulsion, workspace
 from ..field.nearest_kernels import witness
@@ -50,7 +50,7 @@ def follow(follower, field, rules, start, turn, rows):
     """
     work, free = workspace(field), workspace(follower.point)
     for j in range(len(free.frames)):
-        copy_frame(follower.point.base, free.frames[j])
+        copy_rows(follower.point.base, free.frames[j])
     look = workspace(follower.checked)
     copy_row(start, rows.path[0])
     terms = evaluate(field, start, 0, work)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...arms.chain import Chain
+from ...copies import copy_row, copy_rows
 from ...kernel import kernel
-from ...scene.posing import copy_frame, set_frames
+from ...scene.posing import set_frames
 from ...settings import code
 from ..field.field_kernels import attractions, evaluate, flange, gradient, repulsion, total_of
 from ..settings import UpdateRule
@@ -29,7 +30,7 @@ def move(field, rules, q, step, attracts, here, work, out):
     slope = work.gradient
     length = np.sqrt((slope * slope).sum())
     if length == 0.0:
-        out[:] = q
+        copy_row(q, out)
     elif rules.update == _GRADIENT:
         _gradient_step(field, rules, q, step, attracts, here, length, work, out)
     else:
@@ -57,7 +58,7 @@ def _gradient_step(field, rules, q, step, attracts, here, length, work, out):
         if total_of(terms, attracts) <= here + rules.sufficient_decrease * predicted:
             return
         t *= 0.5
-    out[:] = q
+    copy_row(q, out)
 
 
 @kernel
@@ -68,7 +69,7 @@ def _neighbour_step(field, rules, q, step, attracts, work, out):
     """
     n = len(q)
     frames = work.frames
-    copy_frame(field.base, frames[0])
+    copy_rows(field.base, frames[0])
     partial, joint_square, virtual_square = np.zeros(n + 1), np.zeros(n + 1), np.zeros(n + 1)
     partial[0] = repulsion(field, 0, field.first[1], step, work)
     choice, trial = np.zeros(n, dtype=np.int64), q.copy()
@@ -106,4 +107,4 @@ def _neighbour_step(field, rules, q, step, attracts, work, out):
             total += virtual
         if total < best * (1.0 - TIE):
             best = total
-            out[:] = trial
+            copy_row(trial, out)

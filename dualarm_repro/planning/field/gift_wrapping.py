@@ -28,7 +28,9 @@ def wrap_hulls(points, planes, triangles, counts):
     (T,), 0 where the points do not span a volume or lie so that round-off decides."""
     most = points.shape[1]
     x, y, z, keys = np.empty(most), np.empty(most), np.empty(most), np.empty(most)
-    owner = np.full((most, most), -1)
+    owner = np.empty((most, most), np.int64)
+    for i in range(most * most):
+        owner[i // most, i % most] = -1
     ring, open_edges = np.empty(most, np.int64), np.empty((6 * most, 2), np.int64)
     normals = np.empty((len(open_edges), 3))
     for t in range(len(points)):
@@ -46,7 +48,10 @@ def _distinct(points, x, y, z):
     none."""
     extent = 0.0
     for r in range(3):
-        extent = max(extent, points[:, r].max() - points[:, r].min())
+        low = high = points[0, r]
+        for i in range(1, len(points)):
+            low, high = min(low, points[i, r]), max(high, points[i, r])
+        extent = max(extent, high - low)
     level, count = _LEVEL * extent, 0
     for i in range(len(points)):
         a, b, c = points[i, 0], points[i, 1], points[i, 2]
@@ -65,7 +70,11 @@ def _distinct(points, x, y, z):
 def _wrapped(t, xyz, level, work, planes, triangles):
     """Faces of hull number ``t``; how many, 0 if the surface does not close."""
     keys, owner, ring, edges, normals = work
-    a = _point(xyz, np.argmin(xyz[0]))
+    first = 0
+    for i in range(1, len(xyz[0])):
+        if xyz[0][i] < xyz[0][first]:
+            first = i
+    a = _point(xyz, first)
     up, left = (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)
     normal, size = _turned(xyz, a, up, left, level, keys, ring)
     if size < 2:

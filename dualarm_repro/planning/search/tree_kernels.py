@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...copies import copy_row
 from ...kernel import kernel
 from ...scene.edge_kernels import edge_buffers, edge_free
-from ...scene.vectors import copy_row
 
 MET, SPENT, MORE = 0, 1, 2
 

@@ -32,7 +32,7 @@ from ...scene import Scene, distances
 from ...scene.broad_phase import with_arms
 from ...scene.configuration_entry import Configuration, PostureEntry
 from ...scene.quantity_entries import Name, Number
-from ...scene.scene_file import SceneFile, scene_of
+from ...scene.scene_file import SceneFile, placed_arms, scene_of
 from ...settings import Settings
 from ...written import read_written
 from ..defaults import default_settings, default_two_arm_settings
@@ -195,6 +195,26 @@ def load_tasks(
         parked,
         path,
     )
+
+
+def arms_and_ends(path: Path) -> list[tuple[Arm, bool]]:
+    """The arms of a file of tasks, and of each whether its start or goal is given as a position.
+
+    Neither is the scene put together nor are the tasks read further: of a file that
+    :func:`load_tasks` refuses it may give something, or raise anything.
+    """
+    content = read_written(path)
+    tasks: dict[str, Any] = {}
+    if content.keys() & {"scene", "tasks"}:
+        file = TaskFile.checked(path, content)
+        tasks, path = dict(file.tasks), path.parent / file.scene
+        content = read_written(path)
+    found = []
+    for placed in placed_arms(path, content):
+        task, entry = tasks.get(placed.name), content["arms"][placed.name]
+        ends = [getattr(task, end, None) or entry.get(end) for end in ("start", "goal")]
+        found.append((placed.arm, any(isinstance(e, dict | PostureEntry) for e in ends)))
+    return found
 
 
 def json_schema() -> dict[str, Any]:

@@ -6,14 +6,14 @@ import numpy as np
 import sympy as sp
 
 from ...arms import Arm
-from ...arms.codegen.generated import generated
+from ...arms.codegen.generated import Generated, generated
 from ...arms.codegen.structure import Constants, structure_of
 from ...arms.dh import joint_symbols
 from ...errors import UnsupportedArmError
 
 
 def pose_code(arm: Arm) -> str:
-    """The statements that compute T(q) of the arm, row by row, as they are compiled."""
+    """The statements that compute T(q) of the arm, row by row, of sums and products."""
     return generated("pose", structure_of(arm.chain, Constants())).source
 
 
@@ -50,6 +50,16 @@ def is_derived(arm: Arm) -> bool:
     """Whether the code, run on symbols, is the product of the link transforms, exactly."""
     difference = symbolic_run(arm) - arm.symbolic_fk()
     return difference.applyfunc(lambda x: sp.expand(x, trig=True)).is_zero_matrix is True
+
+
+def compiled_difference(arm: Arm, count: int, seed: int) -> float:
+    """max |T(q) - T'(q)| over entries and random configurations: compiled code, lines on arrays."""
+    named = Constants()
+    code: Generated = generated("pose", structure_of(arm.chain, named))
+    q = arm.random_configurations(count, np.random.default_rng(seed))
+    constants = np.array(named.values)
+    compiled = code.rows(q, constants, (code.size,))
+    return float(np.abs(compiled - code.by_numpy(q, constants)).max())
 
 
 def exact_constants(arm: Arm) -> list[sp.Matrix]:

@@ -15,10 +15,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from dualarm_repro import load_arm
 from dualarm_repro.arms.chain import SlidingChain
-from dualarm_repro.arms.codegen.generated import generated
+from dualarm_repro.arms.codegen import generated as generated_code
+from dualarm_repro.arms.codegen.generated import LARGE, Generated, generated
+from dualarm_repro.arms.codegen.program import Program, Term
+from dualarm_repro.arms.codegen.simd import WIDTH
 from dualarm_repro.arms.codegen.structure import Constants, structure_of
 from dualarm_repro.arms.kernels import Kinematics
+from dualarm_repro.arms.trigonometry import FAR
 from dualarm_repro.errors import ConfigurationError
+from dualarm_repro.kernel import COMPILES
 from dualarm_repro.scene.posing import cores_in, frames_of, links_of
 
 from ..urdf.texts import joint, link, write
@@ -146,6 +151,60 @@ def test_what_one_call_refuses():
         assert_array_equal(call(frozen), call(np.ones(6)))
         assert_array_equal(call(np.ones(12)[::2]), call(np.ones(6)))
         assert_array_equal(call(np.ones(6, dtype=int)), call(np.ones(6)))
+
+
+@pytest.mark.parametrize("count", [1, 15, 16, 100])
+def test_past_the_cache_the_same_is_written(count, rng, monkeypatch):
+    arm = load_arm("irb120")
+    q = arm.random_configurations(count, rng)
+    q[0, 0] = 2 * FAR  # [rad], for the plain function
+    expected = arm.fk(q)
+    monkeypatch.setattr(generated_code, "LARGE", 1)
+    monkeypatch.setattr(arm._kinematics.pose, "compiled", None)
+    found = arm.fk(q)
+    assert_array_equal(found, expected)
+    assert found.flags.writeable
+    assert found.flags.c_contiguous
+
+
+def test_only_large_matrices_of_whole_lines_go_past_the_cache(monkeypatch):
+    q = np.zeros((LARGE // 16, 6))
+    kinematics = load_arm("irb120")._kinematics
+    monkeypatch.setattr(kinematics.pose, "streamed", None)
+    monkeypatch.setattr(kinematics.jacobian, "streamed", None)
+    assert len(kinematics.pose.rows(q[1:], kinematics.constants, (4, 4))) == len(q) - 1
+    assert len(kinematics.jacobian.rows(q, kinematics.constants, (6, 6))) == len(q)
+    with pytest.raises(TypeError):
+        kinematics.pose.rows(q, kinematics.constants, (4, 4))
+
+
+@pytest.mark.skipif(not COMPILES, reason="numba is switched off")
+def test_instructions_go_past_the_cache_only_where_they_should(monkeypatch):
+    monkeypatch.setenv("DUALARM_CACHE", "off")  # what comes from there has no text
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    code, q = load_arm("irb120")._kinematics.pose, np.zeros(6)
+    for streamed in (False, True):
+        loop = code._loop(streamed)
+        loop(q, np.array(load_arm("irb120")._kinematics.constants), np.empty((4, 4)))
+        [text] = loop.inspect_llvm().values()
+        assert ("!nontemporal" in text, "fence seq_cst" in text) == (streamed, streamed)
+
+
+def test_room_begins_with_a_line():
+    for size in (1, 100, 10**6):
+        room = generated_code._from_a_line_on(size)
+        assert (room.size, room.ctypes.data % (8 * WIDTH)) == (size, 0)
+
+
+def test_programs_of_one_loop_have_names_of_their_own():
+    """The text of the loop does not hold the program."""
+    names = set()
+    for second in ("s1", "c1"):
+        program = Program()
+        result = program.plus(Term(1, "s1"), program.times(Term(1, "c1"), Term(1, second)))
+        structure = structure_of(load_arm("irb120").motion, Constants())
+        names.add(Generated("pose", structure, program, [result]).compiled.__name__)
+    assert len(names) == 2
 
 
 def test_arms_that_differ_in_lengths_share_their_code():
