@@ -130,9 +130,8 @@ def workers_page(run: BenchmarkRun) -> Page:
     if "2 workers [s]" in frame:
         frame["gain of two"] = frame["1 worker [s]"] / frame["2 workers [s]"]
         points = [{point.x: point for point in one.points} for one in curve.series]
-        if all(
-            p[2].start_seconds is not None for p in points
-        ):  # else wall time stands for CPU time
+        parted = all(p[2].start_seconds is not None for p in points)
+        if parted:  # a run before that took wall for CPU time
             frame["CPU time of two / one"] = [p[2].cpu_seconds / p[1].cpu_seconds for p in points]
             frame["start of two [s]"] = [p[2].start_seconds for p in points]
     return table(frame, "{:.2f}")

@@ -71,26 +71,6 @@ def test_it_ends_with_the_block_and_leaves_nothing(begun, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def _on_one_core(monkeypatch, tmp_path):
-    monkeypatch.setattr(ahead, "_cores", lambda: 1)
-
-
-def _with_machine_code(monkeypatch, tmp_path):
-    module = "dualarm_repro.planning.field.gift_wrapping"
-    folder = tmp_path / module / stamp(module)[:16]
-    folder.mkdir(parents=True)
-    (folder / "wrap_hulls.nbi").touch()
-
-
-def _without_a_cache(monkeypatch, tmp_path):
-    monkeypatch.delenv("NUMBA_CACHE_DIR")
-    monkeypatch.setenv("DUALARM_CACHE", "off")
-
-
-def _with_a_cache_that_cannot_be_written(monkeypatch, tmp_path):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", "/proc/none")
-
-
 @pytest.mark.parametrize("moment", ["begin", "end"])
 def test_an_interruption_leaves_neither_process_nor_folder(begun, tmp_path, monkeypatch, moment):
     begin, end = subprocess.Popen, Process.communicate
@@ -141,6 +121,26 @@ def test_a_plan_is_compiled_ahead(begun, dualarm, tmp_path, method, count):
     scene = tmp_path / "none.yaml"
     assert dualarm("plan", str(scene), "--method", method)[0] == 2
     assert [one.command[-1] for one in begun] == [str(scene)] * count
+
+
+def _on_one_core(monkeypatch, tmp_path):
+    monkeypatch.setattr(ahead, "_cores", lambda: 1)
+
+
+def _with_machine_code(monkeypatch, tmp_path):
+    module = "dualarm_repro.planning.field.gift_wrapping"
+    folder = tmp_path / module / stamp(module)[:16]
+    folder.mkdir(parents=True)
+    (folder / "wrap_hulls.nbi").touch()
+
+
+def _without_a_cache(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_CACHE_DIR")
+    monkeypatch.setenv("DUALARM_CACHE", "off")
+
+
+def _with_a_cache_that_cannot_be_written(monkeypatch, tmp_path):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "/proc/none")
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import pytest
 
 from dualarm_repro import load_arm
+from dualarm_repro.arms.codegen.generated import Generated
 from dualarm_repro.view.foundations import generated_code
 
 
@@ -26,8 +27,8 @@ def test_another_code_is_not(monkeypatch):
 def test_what_is_compiled_is_compared_with_the_lines(monkeypatch):
     arm = load_arm("irb120")
     assert generated_code.compiled_difference(arm, 100, seed=0) < 1e-14
-    rows = generated_code.Generated.rows
+    rows = Generated.rows
     monkeypatch.setattr(
-        generated_code.Generated, "rows", lambda *given: rows(*given) + 1e-3 * (given[1][:, :1] > 0)
+        Generated, "rows", lambda *given: rows(*given) + 1e-3 * (given[1][:, :1] > 0)
     )
     assert generated_code.compiled_difference(arm, 100, seed=0) == pytest.approx(1e-3)

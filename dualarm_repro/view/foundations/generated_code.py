@@ -6,7 +6,7 @@ import numpy as np
 import sympy as sp
 
 from ...arms import Arm
-from ...arms.codegen.generated import Generated, generated
+from ...arms.codegen.generated import generated
 from ...arms.codegen.structure import Constants, structure_of
 from ...arms.dh import joint_symbols
 from ...errors import UnsupportedArmError
@@ -55,7 +55,7 @@ def is_derived(arm: Arm) -> bool:
 def compiled_difference(arm: Arm, count: int, seed: int) -> float:
     """max |T(q) - T'(q)| over entries and random configurations: compiled code, lines on arrays."""
     named = Constants()
-    code: Generated = generated("pose", structure_of(arm.chain, named))
+    code = generated("pose", structure_of(arm.chain, named))
     q = arm.random_configurations(count, np.random.default_rng(seed))
     constants = np.array(named.values)
     compiled = code.rows(q, constants, (code.size,))
