@@ -31,6 +31,8 @@ COLLECT_AFTER = (100_000, 20, 50)
 #: Seconds after which a command that is still at work is interrupted once more: a library may have
 #: swallowed the exception, as Python does in ``__del__``. Longer than what ends workers takes.
 AGAIN = 5.0
+#: Whether the system can do so; Windows cannot.
+ALARMED = hasattr(signal, "setitimer")
 
 
 def process() -> None:
@@ -159,7 +161,8 @@ def _interruptions(last: bool) -> Iterator[list[int]]:
         quiet = True
         seen.append(number)
         sys.unraisablehook = lambda _: None
-        signal.setitimer(signal.ITIMER_REAL, AGAIN)
+        if ALARMED:
+            signal.setitimer(signal.ITIMER_REAL, AGAIN)
         raise KeyboardInterrupt
 
     def once_more(number: int, frame: FrameType | None) -> None:
@@ -172,11 +175,12 @@ def _interruptions(last: bool) -> Iterator[list[int]]:
     except ValueError:  # not the main thread
         yield seen
         return
-    before[signal.SIGALRM] = signal.signal(signal.SIGALRM, once_more)
+    if ALARMED:
+        before[signal.SIGALRM] = signal.signal(signal.SIGALRM, once_more)
     try:
         yield seen
     finally:
-        if seen:
+        if seen and ALARMED:
             signal.setitimer(signal.ITIMER_REAL, 0)
         if last:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
