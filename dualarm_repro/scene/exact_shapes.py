@@ -91,10 +91,8 @@ def _rates(
     arm: Arm, geometry: pin.GeometryModel, pairs: list[tuple[int, int]], slide: np.ndarray
 ) -> np.ndarray:
     """Largest way of the two shapes of each pair relative to each other by each joint (P, nq)."""
-    links = links_of(arm)
-    # A core on the axis of a joint does not move, but the shape around it turns.
-    turned = (np.arange(arm.nq) < links.joint[:, np.newaxis]) & ~arm.slides
-    lever = reach(arm, slide) + np.where(turned, links.radius[:, np.newaxis], 0.0)
+    links, lever = links_of(arm), reach(arm, slide)
+    lever += np.where((lever > 0.0) & ~arm.slides, links.radius[:, np.newaxis], 0.0)
     rates = np.zeros((len(pairs), arm.nq))
     for row, pair in zip(rates, pairs, strict=True):
         low, high = sorted(geometry.geometryObjects[k].parentJoint for k in pair)

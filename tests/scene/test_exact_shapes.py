@@ -21,9 +21,9 @@ JOINT = (
 )
 
 
-@pytest.mark.parametrize("aside", [0.0, 0.005, 0.3])
+@pytest.mark.parametrize("aside", [0.005, 0.3])
 def test_a_rim_moves_no_further_than_the_rate_of_its_pair(tmp_path, aside):
-    """A column turns about its own axis, or one close to it, or far from it."""
+    """A column turns about an axis close to its own, or far from it."""
     links = "".join(LINK.format(k, aside) for k in range(3))
     joints = JOINT.format(0, 1, 0.0) + JOINT.format(1, 2, 0.5)
     path = tmp_path / "arm.urdf"
