@@ -28,6 +28,11 @@ NOT_USABLE = 3
 #: compiling make many that stay, and almost no garbage: Python's own (700, 10, 10) would cost a
 #: tenth of the time of a first plan.
 COLLECT_AFTER = (100_000, 20, 50)
+#: Seconds after which a command that is still at work is interrupted once more: a library may have
+#: swallowed the exception, as Python does in ``__del__``. Longer than what ends workers takes.
+AGAIN = 5.0
+#: Whether the system can do so; Windows cannot.
+ALARMED = hasattr(signal, "setitimer")
 
 
 def process() -> None:
@@ -45,9 +50,9 @@ def main(last: bool = False) -> None:
             sys.stdout.flush()
         except BaseException as error:  # one place decides how each of them ends
             code = INTERRUPTED if seen else _ending(error)
-        if seen:
-            code = _said("interrupted", INTERRUPTED)
-            exec("")  # else an interrupted exec() of a library ends the interpreter by the signal
+    if seen:
+        code = _said("interrupted", INTERRUPTED)
+        exec("")  # else an interrupted exec() of a library ends the interpreter by the signal
     sys.exit(code)
 
 
@@ -140,30 +145,47 @@ def _seldom_collected(last: bool) -> Iterator[None]:
 
 @contextmanager
 def _interruptions(last: bool) -> Iterator[list[int]]:
-    """Note interruptions, whatever a library makes of the exception, and let only one end us.
+    """Note interruptions, and let one end us, whatever a library makes of the exception.
 
+    Those that follow within ``AGAIN`` seconds do not disturb what the first one has to clear away.
     After the ``last`` command of a process there is nothing left to interrupt but its end.
     """
     seen: list[int] = []
+    quiet = False
     hook = sys.unraisablehook
 
     def stop(number: int, frame: FrameType | None) -> None:
+        nonlocal quiet
+        if quiet:
+            return
+        quiet = True
         seen.append(number)
-        signal.signal(number, signal.SIG_IGN)
         sys.unraisablehook = lambda _: None
+        if ALARMED:
+            signal.setitimer(signal.ITIMER_REAL, AGAIN)
         raise KeyboardInterrupt
 
+    def once_more(number: int, frame: FrameType | None) -> None:
+        nonlocal quiet
+        quiet = False
+        signal.raise_signal(signal.SIGINT)
+
     try:
-        before = signal.signal(signal.SIGINT, stop)
+        before = {signal.SIGINT: signal.signal(signal.SIGINT, stop)}
     except ValueError:  # not the main thread
         yield seen
         return
+    if ALARMED:
+        before[signal.SIGALRM] = signal.signal(signal.SIGALRM, once_more)
     try:
         yield seen
     finally:
+        if seen and ALARMED:
+            signal.setitimer(signal.ITIMER_REAL, 0)
         if last:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
         else:
-            if before is not None:  # else it was not set from Python, and cannot be from there
-                signal.signal(signal.SIGINT, before)
+            for number, handler in before.items():
+                if handler is not None:  # else it was not set from Python, and cannot be from there
+                    signal.signal(number, handler)
             sys.unraisablehook = hook

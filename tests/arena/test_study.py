@@ -7,6 +7,7 @@ from dualarm_repro.arena import study
 from dualarm_repro.arena.cases import case_settings
 from dualarm_repro.arena.judged import Outcome
 from dualarm_repro.errors import UnknownNameError
+from dualarm_repro.planning.planner import PlannerSettings
 
 RNG = np.random.default_rng(0)
 
@@ -76,3 +77,7 @@ def test_the_time_of_the_processor_is_no_part_of_the_result():
     row = {"outcome": "x", "lower": 1.0, "time": 1.0}
     assert study.ARENA.differs(row, {**row, "time": 9.0}) == []
     assert study.ARENA.differs(row, {**row, "lower": 1.1}) != []
+
+
+def test_a_planner_may_ask_by_default_for_what_shows_that_a_task_can_be_done():
+    assert PlannerSettings().evaluations == study.WITNESS_EVALUATIONS

@@ -117,8 +117,13 @@ def study_of(monkeypatch):
 
 def test_a_sample_of_a_study_is_scaled_to_the_whole_and_nothing_is_computed_twice(study_of):
     study, computed = study_of(1000, lambda k: 0.05)
-    costs = workers.sampled("toy")
+    one = workers.sampled("toy")
+    costs = one["costs"]
     sample = workers.drawn_parts(study)[: len(costs)]
+    parted = [k for part in sample for k, _ in part]
+    assert computed == 2 * [k for k, _ in sample[0]] + parted
+    assert one["seconds"] == pytest.approx(50.0)
+    assert one["cpu_seconds"] == pytest.approx(150.0)
     assert workers.SECONDS < sum(costs) < workers.SECONDS + 0.3
     computed.clear()
     found = workers.waited("toy", 1, costs)
@@ -127,12 +132,12 @@ def test_a_sample_of_a_study_is_scaled_to_the_whole_and_nothing_is_computed_twic
     assert found["start_seconds"] >= 0.0
     warm = computed[: 2 * len(sample[0])]
     assert warm == 2 * [k for k, _ in sample[0]]
-    assert sorted(computed[len(warm) :]) == sorted(k for part in sample for k, _ in part)
+    assert sorted(computed[len(warm) :]) == sorted(parted)
 
 
 def test_the_dearest_parts_of_a_sample_are_handed_out_first(study_of):
     _, computed = study_of(100, lambda k: 0.1 + 0.01 * k)
-    costs = workers.sampled("toy")
+    costs = workers.sampled("toy")["costs"]
     computed.clear()
     workers.waited("toy", 1, costs)
     assert 8 <= len(costs) < 100
@@ -141,10 +146,34 @@ def test_the_dearest_parts_of_a_sample_are_handed_out_first(study_of):
 
 def test_a_study_of_few_dear_cells_is_measured_whole_and_in_its_order(study_of):
     _, computed = study_of(4, lambda k: 5.0)
-    costs = workers.sampled("toy")
+    costs = workers.sampled("toy")["costs"]
     computed.clear()
     assert workers.waited("toy", 1, costs)["seconds"] == 20.0
     assert computed[2:] == [1, 2, 3, 0]
+
+
+@pytest.mark.parametrize(("seconds", "turns"), [(5.0, 3), (50.0, 1)])
+def test_what_takes_seconds_is_measured_by_turns_and_the_median_told(monkeypatch, seconds, turns):
+    studies = {"toy": SimpleNamespace(missing_peers=list), "peers": None}
+    studies["peers"] = SimpleNamespace(missing_peers=lambda: ["ompl"])
+    asked, walls = [], {1: iter([8.0, 6.0]), 2: iter([3.0, 9.0, 4.0])}
+
+    def process(call, name, workers=1, costs=None):
+        asked.append(workers)
+        made = {"cpu_seconds": 1.0, "start_seconds": 0.5}
+        if call == "sampled":
+            return {**made, "seconds": 7.0, "costs": [seconds]}
+        return {**made, "seconds": next(walls[workers])}
+
+    monkeypatch.setattr(workers, "load", lambda: SimpleNamespace(studies=studies))
+    monkeypatch.setattr(workers, "_in_a_process", process)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    (found,) = workers.times()["series"]
+    one, two = found["points"]
+    assert asked == ([1, 2, 2, 1, 1, 2] if turns == 3 else [1, 2])
+    assert (one["x"], two["x"]) == (1, 2)
+    assert (one["seconds"], two["seconds"]) == ((7.0, 4.0) if turns == 3 else (7.0, 3.0))
+    assert two["quartiles"] == ([3.5, 6.5] if turns == 3 else [3.0, 3.0])
 
 
 def test_distances_among_obstacles_are_those_of_the_peer():

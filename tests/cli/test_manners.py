@@ -19,6 +19,7 @@ from long_tests import long_where
 from dualarm_repro import __version__
 from dualarm_repro.cli.app import COMMANDS, application
 from dualarm_repro.cli.arguments import Kind
+from dualarm_repro.interruption import uninterrupted
 from dualarm_repro.ledger import schema
 
 ROOT = Path(__file__).parents[2]
@@ -340,6 +341,46 @@ def test_however_a_command_ends_ctrl_c_belongs_to_the_caller_again(monkeypatch, 
     with pytest.raises(ZeroDivisionError if ending is ZeroDivisionError else SystemExit):
         cli.main()
     assert habits() == before
+
+
+def swallowed_by_a_bare_except():
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except BaseException:  # as libraries do while they are imported
+        pass
+
+
+def swallowed_in_a_finalizer():
+    class Dying:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    Dying()
+
+
+@pytest.mark.parametrize("swallowed", [swallowed_by_a_bare_except, swallowed_in_a_finalizer])
+def test_an_interruption_that_a_library_swallowed_comes_again(dualarm, monkeypatch, swallowed):
+    from dualarm_repro import cli
+
+    reached = []
+
+    def long_work():
+        swallowed()
+        signal.raise_signal(signal.SIGINT)  # a second press of the keys disturbs nothing
+        reached.append("after")
+        with uninterrupted():
+            time.sleep(0.2)
+            reached.append("uninterrupted")
+        time.sleep(30)
+        reached.append("the end")
+
+    monkeypatch.setattr(cli, "AGAIN", 0.1)
+    monkeypatch.setattr("dualarm_repro.papers.load", long_work)
+    before = signal.getsignal(signal.SIGALRM)
+    assert dualarm("show", "xue.tab01") == (130, "", "dualarm: interrupted\n")
+    assert reached == ["after", "uninterrupted"]
+    assert signal.getsignal(signal.SIGALRM) == before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
 
 
 DAMAGES = ("[]", "{}", '{"code": 1, "cells": 1, "inputs": {}, "table_sha256": ""}', "{")

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from dualarm_repro.control import solvers
 from dualarm_repro.control.certificate import residual
+from dualarm_repro.control.least_distance import INFEASIBLE, ITERATION_LIMIT, SOLVED
 from dualarm_repro.control.problem import NoSolution, QuadraticProgram, Solution
 from dualarm_repro.control.relaxed import least_distance_with_slack
 from dualarm_repro.control.solvers import OPTIONAL_SOLVERS, SOLVERS, solve
@@ -84,6 +85,23 @@ def test_infeasible_inequalities_are_found():
     for solver in AGREES:
         with pytest.raises(NoSolution, match="problem"):
             solve(problem, solver)
+
+
+def test_why_there_is_no_answer_is_told(monkeypatch):
+    """By the status of the own method where nobody else has an answer."""
+    problem = random_problem(np.random.default_rng(5))
+    right = solve(problem)
+    answers = {
+        "exclude each other": (INFEASIBLE, right.x),
+        "iteration limit": (ITERATION_LIMIT, right.x),
+        "the residual": (SOLVED, right.x + 1e-3),
+    }
+    monkeypatch.setattr(solvers, "second_opinion", lambda _: None)
+    for reason, (status, x) in answers.items():
+        found = (status, x, right.y, right.z, right.w)
+        monkeypatch.setattr(solvers, "least_distance", lambda _, found=found: found)
+        with pytest.raises(NoSolution, match=reason):
+            solve(problem)
 
 
 def test_every_solver_is_compared():

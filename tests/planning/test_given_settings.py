@@ -75,3 +75,8 @@ def test_the_other_family_is_merged_over_its_own_defaults(tmp_path):
     given = load_tasks(tasks(tmp_path, "settings: {step: {length: 0.02}}"), TwoArmSettings)
     default = default_two_arm_settings(load_arm("irb120"))
     assert given.settings["left"].step == default.step.changed(length=0.02)
+
+
+def test_a_step_cannot_leap_over_where_a_default_search_ends():
+    default = default_two_arm_settings(load_arm("irb120"))
+    assert default.step.length < default.ending.tolerance < 1.5 * default.step.length

@@ -14,6 +14,7 @@ from dualarm_repro.errors import (
     UnknownNameError,
     UnsupportedArmError,
 )
+from dualarm_repro.planning import planner
 from dualarm_repro.planning.arm_path import ArmPath
 from dualarm_repro.planning.checks.whole_motion import require_paths
 from dualarm_repro.planning.faults import MOST_TOLD, TaskFaults
@@ -64,6 +65,15 @@ def test_the_margin_is_that_of_the_settings_or_half_of_what_the_ends_have(scene)
     wide = PathProblem(scene, START, GOAL, PlannerSettings(margin=9.0))
     assert wide.margin == pytest.approx(0.5 * least)
     assert wide.evaluations == 0, "the ends are looked at for everybody"
+
+
+@pytest.mark.parametrize(("least", "kept"), [(0.004, 0.002), (0.0, 0.0), (-0.1, 0.0)])
+def test_ends_that_are_close_keep_half_of_that_and_ends_in_contact_nothing(
+    scene, monkeypatch, least, kept
+):
+    problem = PathProblem(scene, START, GOAL, PlannerSettings(margin=9.0))
+    monkeypatch.setattr(planner, "distances", lambda scene, q: np.array([[0.3, least]]))
+    assert problem.margin == kept
 
 
 def test_limits_reach_to_the_ends(scene):

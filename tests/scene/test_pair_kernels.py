@@ -10,7 +10,10 @@ N, C = 20, 5
 
 
 def cores(rng):
-    return 0.5 * rng.normal(size=(N, C, 2, 3)), rng.uniform(0.02, 0.2, C)
+    """Capsules of cores from a point to a metre: what is short must not count as a point."""
+    middles, lengths = 0.5 * rng.normal(size=(N, C, 1, 3)), np.array([0.0, 0.01, 0.1, 0.5, 1.0])
+    along = rng.normal(size=(N, C, 1, 3)) * lengths[:, np.newaxis, np.newaxis]
+    return middles + along * np.array([[-0.5], [0.5]]), rng.uniform(0.02, 0.2, C)
 
 
 def capsule_case(rng):

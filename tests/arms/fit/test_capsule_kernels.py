@@ -56,6 +56,16 @@ def test_a_square_seen_from_above_by_hand():
     np.testing.assert_allclose(found[:6], 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("turned", np.arange(4) * np.pi / 2)
+def test_the_circle_of_a_prism_is_found_where_the_middle_of_its_extent_is_not_its_centre(turned):
+    corners = turned + np.array([0.0, 2.0, 4.0]) * np.pi / 3
+    prism = np.array([[np.cos(a), np.sin(a), z] for a in corners for z in (0.0, 30.0)])
+    found = np.empty(7)
+    along(prism, np.array([0, 0, 1.0]), found)
+    # The middle of the extent would need a radius of 1.146; n steps end within 1 / n.
+    assert 1.0 - 1e-12 <= found[6] < 1.04
+
+
 @settings(max_examples=20)
 @given(seed=st.integers(0, 10**6))
 def test_more_directions_and_refinement_never_make_it_larger(seed):

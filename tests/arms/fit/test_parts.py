@@ -31,6 +31,14 @@ def test_hulls_are_between_the_shape_and_its_capsules():
     assert np.abs(corners).max(axis=0) == pytest.approx([0.15, 0.1, 0.05], abs=1e-9)
 
 
+def test_the_prism_of_a_cylinder_touches_it_all_around():
+    """n sides of 2 r tan(pi / n) a height, and as many triangles of r^2 tan(pi / n) at each end."""
+    a, b, c = np.moveaxis(triangles_of(coal.Cylinder(0.2, 0.7)), 1, 0)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+    side = 0.2 * np.tan(np.pi / 24)
+    assert area == pytest.approx(24 * (2 * side * 0.7 + 2 * side * 0.2), rel=1e-12)
+
+
 @pytest.mark.parametrize("geometry", [coal.Sphere(0.1), coal.Capsule(0.1, 0.4)])
 def test_balls_and_capsules_are_their_own_hull(geometry):
     (part,) = parts_of(solid(geometry))

@@ -1,0 +1,52 @@
+"""Exact shapes move no faster than their certified distances rest on."""
+
+import itertools
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from dualarm_repro.arms import load_arm
+from dualarm_repro.scene.certificate import reach
+from dualarm_repro.scene.exact_shapes import _rates
+
+LINK = (
+    "<link name='l{}'><collision><origin xyz='{} 0 0'/><geometry>"
+    "<cylinder radius='0.05' length='0.3'/></geometry></collision></link>"
+)
+JOINT = (
+    "<joint name='j{0}' type='revolute'><parent link='l{0}'/><child link='l{1}'/>"
+    "<origin xyz='{2} 0 0'/><axis xyz='0 0 1'/>"
+    "<limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
+)
+
+
+@pytest.mark.parametrize("aside", [0.005, 0.3])
+def test_a_rim_moves_no_further_than_the_rate_of_its_pair(tmp_path, aside):
+    """A column turns about an axis close to its own, or far from it."""
+    links = "".join(LINK.format(k, aside) for k in range(3))
+    joints = JOINT.format(0, 1, 0.0) + JOINT.format(1, 2, 0.5)
+    path = tmp_path / "arm.urdf"
+    path.write_text(f"<robot name='r'>{links}{joints}</robot>", encoding="utf-8")
+    arm = load_arm(path)
+    own = reach(arm)[1:].diagonal()
+    np.testing.assert_allclose(own, aside, atol=1e-9, err_msg="the core of a column is its axis")
+    shapes = arm.solids.geometryObjects
+    pairs = list(itertools.combinations(range(len(shapes)), 2))
+    rates = _rates(arm, arm.solids, pairs, np.zeros(arm.nq))
+    assert rates.shape == (3, 2)
+    angles = np.linspace(0.0, 2.0 * np.pi, 16)
+    rim = 0.05 * np.array([np.cos(angles), np.sin(angles), np.zeros(16)]).T
+    rng = np.random.default_rng(17)
+    data, worst = arm.model.createData(), np.zeros_like(rates)
+    for q in rng.uniform(-3.0, 3.0, (200, 2)):
+        pin.forwardKinematics(arm.model, data, q)
+        for row, (first, second) in zip(worst, pairs, strict=True):
+            low, high = (shapes[k].parentJoint for k in (first, second))
+            points = np.array([(data.oMi[high] * shapes[second].placement).act(p) for p in rim])
+            for k in range(low, high):  # the joints between the two shapes
+                centre = data.oMi[k + 1].translation
+                lever = np.linalg.norm((points - centre)[:, :2], axis=1).max()
+                row[k] = max(row[k], lever)
+    assert np.all(worst <= rates + 1e-12)
+    assert np.all((rates > 0.0) == (worst > 0.0))
