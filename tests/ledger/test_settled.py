@@ -80,6 +80,7 @@ def test_not_found_tells_the_nearest_miss(make):
     assert found.verdict == "not-reproduced"
     assert found.robustness["meets_print"]["share"] == 0.0
     assert not found.search["directed"]
+    assert found.search["evaluations"] == 64, "the draws, and no climb"
     assert 0.4 < found.search["nearest"]["miss"] < 0.6
     # the draw nearest to the end of the range, not the end itself
     assert found.search["nearest"]["values"]["width"] == pytest.approx(4.0, abs=0.2)

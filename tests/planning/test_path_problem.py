@@ -252,3 +252,13 @@ def test_a_path_has_rows(path):
     line = r"FoundPath: path \(its shape\) = .*finite numbers \(N, nq\), not empty"
     with pytest.raises(InputError, match=line):
         FoundPath(path, "reached")
+
+
+def test_what_moves_is_where_it_is_at_the_start_unless_a_time_is_given():
+    ways = [pin.SE3(np.eye(3), np.array([x, 0.5, 0.3])) for x in (-1.0, 1.0)]
+    ball = MovingShape(Sphere(np.zeros(3), 0.05), PosePath(ways, [0.0, 1.0]))
+    arm, q = PlacedArm("arm", load_arm("irb120")), np.zeros(6)
+    problem = PathProblem(Scene([arm], moving={"ball": ball}, self_collision=False), q, q)
+    at_start = problem.clearance(q, 0.0)
+    assert problem.clearance(q) == at_start
+    assert problem.clearance(q, 0.01) < at_start - 0.01

@@ -15,20 +15,30 @@ LINK = (
     "<cylinder radius='0.05' length='0.3'/></geometry></collision></link>"
 )
 JOINT = (
-    "<joint name='j{0}' type='revolute'><parent link='l{0}'/><child link='l{1}'/>"
+    "<joint name='j{0}' type='{3}'><parent link='l{0}'/><child link='l{1}'/>"
     "<origin xyz='{2} 0 0'/><axis xyz='0 0 1'/>"
     "<limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
 )
 
 
+def arm_of(tmp_path, aside, *kinds):
+    """Columns beside their joints, one of each kind."""
+    links = "".join(LINK.format(k, aside) for k in range(len(kinds) + 1))
+    joints = "".join(JOINT.format(k, k + 1, 0.5 * k, kind) for k, kind in enumerate(kinds))
+    path = tmp_path / "arm.urdf"
+    path.write_text(f"<robot name='r'>{links}{joints}</robot>", encoding="utf-8")
+    return load_arm(path)
+
+
+def test_a_prismatic_joint_moves_all_of_a_shape_as_far_as_itself(tmp_path):
+    arm = arm_of(tmp_path, 0.0, "prismatic")
+    assert _rates(arm, arm.solids, [(0, 1)], np.array([0.5])).tolist() == [[1.0]]
+
+
 @pytest.mark.parametrize("aside", [0.005, 0.3])
 def test_a_rim_moves_no_further_than_the_rate_of_its_pair(tmp_path, aside):
     """A column turns about an axis close to its own, or far from it."""
-    links = "".join(LINK.format(k, aside) for k in range(3))
-    joints = JOINT.format(0, 1, 0.0) + JOINT.format(1, 2, 0.5)
-    path = tmp_path / "arm.urdf"
-    path.write_text(f"<robot name='r'>{links}{joints}</robot>", encoding="utf-8")
-    arm = load_arm(path)
+    arm = arm_of(tmp_path, aside, "revolute", "revolute")
     own = reach(arm)[1:].diagonal()
     np.testing.assert_allclose(own, aside, atol=1e-9, err_msg="the core of a column is its axis")
     shapes = arm.solids.geometryObjects
