@@ -29,13 +29,14 @@ from time import perf_counter, process_time, sleep, time
 from typing import Any
 
 import numpy as np
+from timing import Spread
 
 from dualarm_repro.ledger.study import Study, parts
 from dualarm_repro.ledger.workers import results
 from dualarm_repro.papers import load
 from dualarm_repro.tracking import forget
 
-ROOT = Path(__file__).resolve().parents[2]
+BENCHMARKS, ROOT = Path(__file__).resolve().parents[1:3]
 TITLE, X = "a stored study", "worker processes"
 SECONDS, LONGEST = 4.0, 100.0  # that the parts of a sample take one worker, and at most
 SHORT, TURNS = 15.0, 3  # samples below are measured so often
@@ -71,10 +72,10 @@ def times() -> dict[str, object]:
 
 def medians(turns: Sequence[dict[str, Any]]) -> dict[str, object]:
     """Of what was measured by turns, with the quartiles of the wall time."""
-    low, high = np.quantile([one["seconds"] for one in turns], (0.25, 0.75)).tolist()
     keys = ("seconds", "cpu_seconds", "start_seconds")
-    middle = {key: float(np.median([one[key] for one in turns])) for key in keys}
-    return {**middle, "quartiles": [low, high]}
+    spread = {key: Spread.of([one[key] for one in turns]) for key in keys}
+    wall = spread["seconds"]
+    return {key: spread[key].median for key in keys} | {"quartiles": [wall.low, wall.high]}
 
 
 def sampled(name: str) -> dict[str, object]:
@@ -82,7 +83,7 @@ def sampled(name: str) -> dict[str, object]:
     shared evenly; their seconds, and all that :func:`waited` gives."""
     study = load().studies[name]
     order = drawn_parts(study)
-    started, _ = (warmed(study, order[0], 1) for _ in range(2))
+    started = warmed(study, order[0], 1)
     costs: list[float] = []
     cells, used = 0, process_time()
     for part in order:
@@ -101,8 +102,7 @@ def waited(name: str, workers: int, costs: Sequence[float]) -> dict[str, object]
     the seconds until they had started."""
     study = load().studies[name]
     order = drawn_parts(study)
-    # A worker collects garbage once after its first task, which is part of its start: two tasks.
-    started, _ = (warmed(study, order[0], workers) for _ in range(2))
+    started = warmed(study, order[0], workers)
     sample = handed_out(study, order, costs)
     tasks = ((_computed, study, part) for part in sample)
     begun, used = perf_counter(), process_time()
@@ -122,11 +122,17 @@ def _scaled(
 
 
 def warmed(study: Study, part: Part, workers: int) -> float:
-    """Seconds until each worker has begun this part, which it forgets again."""
+    """Seconds until each worker has begun this part, which it forgets again.
+
+    A worker collects garbage once after its first task, which is part of its start: two tasks.
+    """
     called = time()
-    with TemporaryDirectory() as folder:
-        tasks = [(_warmed, study, (part, folder, workers))] * workers
-        return max(results(tasks, workers, study.name, workers)) - called
+    begun = []
+    for _ in range(2):
+        with TemporaryDirectory() as folder:
+            tasks = [(_warmed, study, (part, folder, workers))] * workers
+            begun.append(max(results(tasks, workers, study.name, workers)))
+    return begun[0] - called
 
 
 def handed_out(study: Study, order: Sequence[Part], costs: Sequence[float]) -> list[Part]:
@@ -168,7 +174,7 @@ def _warmed(study: Study, shared: tuple[Part, str, int]) -> float:
 
 def _in_a_process(*asked: object) -> Any:
     command = [sys.executable, __file__, *map(json.dumps, asked)]
-    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    path = os.pathsep.join(filter(None, [str(ROOT), str(BENCHMARKS), os.environ.get("PYTHONPATH")]))
     made = subprocess.run(
         command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path}
     )

@@ -3,6 +3,8 @@
 import mutation_run
 import pytest
 
+from dualarm_repro.ledger.trust.mutants import Mutant, mutants
+
 SOURCE = '''"""A room."""
 def twice(x):
     return 2 * x
@@ -22,12 +24,20 @@ def test_that_fails_anyway(): assert False
 
 
 def test_the_list_of_equivalent_mutants_names_mutants_that_exist():
-    from dualarm_repro.ledger.trust.mutants import mutants
-
     for entry in mutation_run.equivalents():
         drawn = mutants(mutation_run.ROOT, entry["file"])
         assert [m for m in drawn if mutation_run.excused(m, [entry])], entry
         assert len(entry["reason"]) > 10
+
+
+def test_of_a_line_with_the_token_twice_only_the_column_that_is_named_is_excused():
+    twice = [
+        Mutant("m.py", 3, column, "0.0", "0.01", "y if x > 0.0 else 0.0") for column in (9, 18)
+    ]
+    named = {name: getattr(twice[1], name) for name in ("file", "text", "old", "new", "column")}
+    known = [named | {"reason": "it is multiplied by zero"}]
+    found = [mutation_run.excused(mutant, known) for mutant in twice]
+    assert found == [None, "it is multiplied by zero"]
 
 
 @pytest.fixture(scope="module")

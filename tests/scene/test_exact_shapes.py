@@ -5,29 +5,18 @@ import itertools
 import numpy as np
 import pinocchio as pin
 import pytest
+from arms.urdf.texts import joint, link, write
 
 from dualarm_repro.arms import load_arm
 from dualarm_repro.scene.certificate import reach
 from dualarm_repro.scene.exact_shapes import _rates
 
-LINK = (
-    "<link name='l{}'><collision><origin xyz='{} 0 0'/><geometry>"
-    "<cylinder radius='0.05' length='0.3'/></geometry></collision></link>"
-)
-JOINT = (
-    "<joint name='j{0}' type='{3}'><parent link='l{0}'/><child link='l{1}'/>"
-    "<origin xyz='{2} 0 0'/><axis xyz='0 0 1'/>"
-    "<limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
-)
-
 
 def arm_of(tmp_path, aside, *kinds):
-    """Columns beside their joints, one of each kind."""
-    links = "".join(LINK.format(k, aside) for k in range(len(kinds) + 1))
-    joints = "".join(JOINT.format(k, k + 1, 0.5 * k, kind) for k, kind in enumerate(kinds))
-    path = tmp_path / "arm.urdf"
-    path.write_text(f"<robot name='r'>{links}{joints}</robot>", encoding="utf-8")
-    return load_arm(path)
+    """Columns beside the axes of their joints, one of each kind."""
+    links = [link(f"l{k}", origin=f"<origin xyz='{aside} 0 0.15'/>") for k in range(len(kinds) + 1)]
+    joints = [joint(f"j{k}", f"l{k}", f"l{k + 1}", kind) for k, kind in enumerate(kinds)]
+    return load_arm(write(tmp_path, *links, *joints))
 
 
 def test_a_prismatic_joint_moves_all_of_a_shape_as_far_as_itself(tmp_path):
@@ -55,8 +44,8 @@ def test_a_rim_moves_no_further_than_the_rate_of_its_pair(tmp_path, aside):
             low, high = (shapes[k].parentJoint for k in (first, second))
             points = np.array([(data.oMi[high] * shapes[second].placement).act(p) for p in rim])
             for k in range(low, high):  # the joints between the two shapes
-                centre = data.oMi[k + 1].translation
-                lever = np.linalg.norm((points - centre)[:, :2], axis=1).max()
+                centre, axis = data.oMi[k + 1].translation, data.oMi[k + 1].rotation[:, 2]
+                lever = np.linalg.norm(np.cross(axis, points - centre), axis=1).max()
                 row[k] = max(row[k], lever)
     assert np.all(worst <= rates + 1e-12)
     assert np.all((rates > 0.0) == (worst > 0.0))
